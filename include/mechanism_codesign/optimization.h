@@ -126,8 +126,14 @@ struct OptimalityResult {
   /// moved outwards by the range of the parameter, or without one by its extent, theory (24j);
   /// positive at the lower, negative at the upper bound, 0 off the bounds.
   Eigen::VectorXd bound_multipliers;
-  Eigen::MatrixXd flat_directions;  ///< in which psi does not change, by rho, one per column;
-                                    ///< theory (24i)
+  /// Steps along which psi does not change, by rho, one per column: what moves one parameter by a
+  /// hundredth of its range, in a curved valley to first order; theory (24i).
+  Eigen::MatrixXd flat_directions;
+  Eigen::MatrixXd flat_points;  ///< the designs beside the best one, as good as it, to which they
+                                ///< lead, one per column
+  /// Why no slope tells whether the best point is an optimum, as a part of a sentence: psi jumps
+  /// with parameters, theory (24k). Empty: the slope tells it; else `stationarity` is not a number.
+  std::string unjudged;
   std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
                                  ///< depended on it at any trial point
   /// Whether differences of the objective through other steps confirm the gradient at the best

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
 
@@ -9,6 +12,9 @@ namespace codesign {
 struct SourceText {
   std::string name;  ///< for messages: the path of its file, or any other name
   std::string text;  ///< the whole text
+  /// Of a text that a program has made of files: where each of its lines came from, for messages;
+  /// empty: from itself.
+  std::vector<SourceLocation> origins{};
 };
 
 /// Reads a file of at most 32 MB. @throws InputError for a file that is missing, empty, too large

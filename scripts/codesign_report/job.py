@@ -23,13 +23,16 @@ class Table:
         self.columns = {}
         with open(path, newline="", encoding="utf-8", errors="replace") as file:
             rows = csv.reader(file)
-            self.names = next(rows, [])
-            cells = [[] for _ in self.names]
-            for row in rows:
-                if len(row) != len(self.names):
-                    raise ReportError(f"{path}:{rows.line_num}: {len(row)} cells, the first line has {len(self.names)}; the table is damaged, run the job again")
-                for column, cell in zip(cells, row):
-                    column.append(to_value(cell))
+            try:
+                self.names = next(rows, [])
+                cells = [[] for _ in self.names]
+                for row in rows:
+                    if len(row) != len(self.names):
+                        raise ReportError(f"{path}:{rows.line_num}: {len(row)} cells, the first line has {len(self.names)}; the table is damaged, run the job again")
+                    for column, cell in zip(cells, row):
+                        column.append(to_value(cell))
+            except csv.Error as error:
+                raise ReportError(f"{path}:{rows.line_num}: not a table; it is damaged, run the job again") from error
         self.columns = dict(zip(self.names, cells))
 
     def __getitem__(self, name):
@@ -63,8 +66,10 @@ def read_text(path):
 def read_json(path):
     try:
         value = json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise ReportError(f"{path}:{error.lineno}: not JSON from column {error.colno} on; the file is damaged, or no output of this program") from error
     except (ValueError, RecursionError) as error:
-        raise ReportError(f"{path}: not JSON: {error}") from error
+        raise ReportError(f"{path}: not JSON of this program: a number is too long, or it is nested too deeply") from error
     if not isinstance(value, dict):
         raise ReportError(f"{path}: not a JSON object")
     return value

@@ -21,7 +21,7 @@ def read_robot(path):
     try:
         return geometry.Robot(read_text(path))
     except ElementTree.ParseError as error:
-        raise ReportError(f"{path}:{error.position[0]}: not complete XML: {error}; codesign urdf writes the model of a design") from error
+        raise ReportError(f"{path}:{error.position[0]}: not complete XML from column {error.position[1] + 1} on; codesign urdf writes the model of a design") from error
     except (AttributeError, TypeError) as error:
         raise ReportError(f"{path}: not a model in URDF: a joint without parent or child, or an end of a loop without link") from error
 
@@ -48,21 +48,31 @@ def embedded(job):
     return Markup(text.replace("<", "\\u003c")) if len(text) < MOST_EMBEDDED else ""
 
 
+def shell_word(path):
+    """A path as one word of bash, also where its bytes are no UTF-8."""
+    data = os.fsencode(path)
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError:
+        return "$'" + "".join(chr(byte) if 32 <= byte < 127 and byte not in b"'\\" else f"\\x{byte:02x}" for byte in data) + "'"
+    return shlex.quote(path)
+
+
 def commands(job):
     """[(what, command)] that repeat the job or go on from it."""
     files = job.details.get("files", {})
-    here = "cd " + shlex.quote(job.folder)
+    here = "cd " + shell_word(job.folder)
     if job.kind == "identification":
-        model, study, result = (shlex.quote(job.prefix + name) for name in ("identified.urdf", "job_study.yaml", "identification.json"))
+        model, study, result = (shell_word(job.prefix + name) for name in ("identified.urdf", "job_study.yaml", "identification.json"))
         study = study if job.study_text else "STUDY"
         rows = [("see the identified numbers in motion", f"{here} && codesign simulate {model} {study} --result {result}")]
         if job.bag:
-            rows.append(("the measured beside the identified motion", f"roslaunch mechanism_codesign replay.launch bag:={shlex.quote(job.bag)}"))
+            rows.append(("the measured beside the identified motion", f"roslaunch mechanism_codesign replay.launch bag:={shell_word(job.bag)}"))
         return rows
     rows = []
     if files.get("model") and not job.bag:
-        overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))
-        inputs = f'{shlex.quote(files["model"])} {shlex.quote(files["study"])}{overlays} --result {shlex.quote(job.path("initial.json"))}'
+        overlays = "".join(f" --overlay {shell_word(path)}" for path in files.get("overlays", []))
+        inputs = f'{shell_word(files["model"])} {shell_word(files["study"])}{overlays} --result {shell_word(job.path("initial.json"))}'
         rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
     rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),
              ("the objective of the result, to the last digit", f"{here} && codesign gradient tuned.urdf job_study.yaml --result result.json --json"),
@@ -70,7 +80,7 @@ def commands(job):
              ("the tuned mechanism in rviz",
               f"{here} && roslaunch mechanism_codesign simulate.launch model:=tuned.urdf study:=job_study.yaml result:=result.json")]
     if job.bag:
-        rows.append(("both runs side by side", f"roslaunch mechanism_codesign replay.launch bag:={shlex.quote(job.bag)}"))
+        rows.append(("both runs side by side", f"roslaunch mechanism_codesign replay.launch bag:={shell_word(job.bag)}"))
     if job.gains:
         rows.append(("the gains to a robot's parameter server", f"{here} && rosparam load gains.yaml"))
     return rows
@@ -132,13 +142,18 @@ def find(path):
     return efforts.Efforts(path) if path.endswith(".json") and os.path.isfile(path) else find_job(path)
 
 
+def shown(text):
+    """Bytes of names that are no UTF-8 get the sign of what is unknown: a page is UTF-8."""
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
 def render(job):
     """The page as text. Curves get coarser until it is at most two megabytes."""
     if isinstance(job, efforts.Efforts):
-        return environment().get_template("efforts.html.j2").render(efforts.context(job))
+        return shown(environment().get_template("efforts.html.j2").render(efforts.context(job)))
     template = environment().get_template("page.html.j2")
     for scale in (1.0, 0.5, 0.2, 0.0):
-        text = template.render(context(job, scale))
+        text = shown(template.render(context(job, scale)))
         if len(text.encode()) <= MOST_BYTES:
             break
     return text

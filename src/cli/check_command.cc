@@ -9,6 +9,7 @@
 #include "integration/simulation_of.h"
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
+#include "jobs/setpoint_bounds.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
@@ -83,6 +84,8 @@ int check(const Arguments& arguments, const Console& console) {
   Warnings warnings;
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters, &warnings);
   const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &warnings);
+  if (status.ok())
+    append(find_bounds_beyond_setpoints(problem, parameters, &console.cancel), &warnings);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';

@@ -27,8 +27,8 @@ GradientCheck compute(const Arguments& arguments, const Problem& problem, const 
     if (arguments.each_parameter ||
         (check.status.ok() && check.directions.size() > 0 && disagrees(check)))
       check = check_gradient(ensemble, problem.start(), arguments.method, &console.cancel);
-    check_steps(ensemble, problem.start(), &console.cancel, &check);
     check_other_steps(ensemble, problem.start(), &console.cancel, &check);
+    check_steps(ensemble, problem.start(), &console.cancel, &check);
     return check;
   }
   GradientCheck result;

@@ -30,7 +30,7 @@ Problem load(const Arguments& arguments, const Console* console) {
   if (!arguments.result.empty()) inputs.design = read_design(read_source(arguments.result));
   inputs.settings = arguments.settings;
   if (arguments.fill) {
-    inputs.urdf.text = write_filled_urdf(inputs.urdf, inputs.overlays);
+    inputs.urdf = write_filled_urdf(inputs.urdf, inputs.overlays);
     inputs.overlays.clear();
   }
   Problem problem = codesign::load(inputs);

@@ -8,9 +8,11 @@
 #include "cli/progress_line.h"
 #include "cli/report.h"
 #include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "engine/dispatcher.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
+#include "jobs/setpoint_bounds.h"
 #include "jobs/trial_lines.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"
@@ -72,6 +74,10 @@ int optimize(const Arguments& arguments, const Console& console) {
   if (!arguments.json && designed) console.out << outcome_text(problem, result);
   Json object = optimization_json(problem, result);
   Warnings warnings = result.warnings;
+  if (result.status.code == StatusCode::kInfeasible)
+    append(find_bounds_beyond_setpoints(problem, parameters_at(study_of(problem), result.best.rho),
+                                        &console.cancel),
+           &warnings);
   if (folder) append(folder->warnings(), &warnings);
   add_warnings(arguments, problem, warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);

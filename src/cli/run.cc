@@ -62,6 +62,15 @@ int run_command(const std::vector<std::string>& words, const Console& console) {
     return report(json, {{"code", "bad_usage"}, {"message", error.what()}}, console, kBadInput);
   } catch (const InputError& error) {
     return report(json, to_json(error), console, kBadInput);
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    return report(json,
+                  to_json(InputError({{path, 0},
+                                      "",
+                                      "this path cannot be used: " + error.code().message(),
+                                      path,
+                                      "a path that this system takes"})),
+                  console, kBadInput);
   } catch (const OutputError& error) {
     return report(json, {{"code", "output_failed"}, {"message", error.what()}}, console, kFailed);
   } catch (const std::exception& error) {

@@ -17,18 +17,24 @@
 namespace codesign::cli {
 namespace {
 
+/// Samples of signals may cost as much as the run.
+std::string samples_text(const RunSummary& run) {
+  return readable(run.sample_seconds, 2) + " s for the samples";
+}
+
 void summarize(const RunSummary& run, const Problem& problem, std::ostream& err) {
   if (study_of(problem).postures > 0) {
     err << "assembled " << study_of(problem).postures << " postures, "
-        << readable(run.statistics.cpu_seconds) << " s of processor time, set-up "
-        << readable(problem.setup_seconds()) << " s" << std::endl;
+        << readable(run.statistics.cpu_seconds) << " s of processor time, " << samples_text(run)
+        << ", set-up " << readable(problem.setup_seconds()) << " s" << std::endl;
     for (const LimitCrossing& crossing : run.crossings) err << describe(crossing) << std::endl;
     return;
   }
   const double setup_seconds = problem.setup_seconds();
   err << "simulated " << readable(run.end) << " s in " << run.statistics.steps << " steps ("
       << run.statistics.rejected_steps << " rejected), " << readable(run.statistics.cpu_seconds)
-      << " s of processor time, set-up " << readable(setup_seconds) << " s" << std::endl;
+      << " s of processor time, " << samples_text(run) << ", set-up " << readable(setup_seconds)
+      << " s" << std::endl;
   err << "energy error " << readable(run.statistics.energy_error, 3)
       << " of the largest energy; constraint drift at most "
       << readable(run.statistics.constraint_drift, 3) << " times the error tolerance" << std::endl;
@@ -65,6 +71,7 @@ void add_run(const Problem& problem, const RunSummary& run, const Json& counts, 
   (*object)["parameters"] = parameters_json(problem, problem.parameters());
   if (study_of(problem).postures == 0) (*object)["end_time"] = run.end;
   add_statistics(run.statistics, object);
+  (*object)["sample_seconds"] = run.sample_seconds;
   Json methods = Json::array();
   for (const MethodChange& change : run.methods)
     methods.push_back({{"from", change.time}, {"method", change.method}});

@@ -43,8 +43,8 @@ T clamped_integral_rate(const T& e, const T& s, const T& i, const T& bound) {
 template <class T>
 struct SampledPidMemory {
   T integral{0.0};    ///< sum of T e [unit of e, s]
-  T last_error{0.0};  ///< e at the last sample
-  T error_rate{0.0};  ///< the filtered rate of e [unit of e, 1/s]
+  T last_error{0.0};  ///< what the derivative acts on, at the last sample [unit of e]
+  T error_rate{0.0};  ///< its filtered rate [unit of e, 1/s]
 };
 
 /// The numbers of a sampled PID.
@@ -58,10 +58,10 @@ struct SampledPidNumbers {
 };
 
 /// One sample of a PID, theory (51), in the order of control_toolbox's Pid::computeCommand():
-/// updates the memory and returns the output before its limit. At the first sample the error has no
-/// rate.
+/// updates the memory and returns the output before its limit. At the first sample there is no rate.
+/// @param rated what the derivative acts on: the error, or minus the measured input.
 template <class T>
-T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first,
+T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, const T& rated, bool is_first,
              SampledPidMemory<T>* memory) {
   const T period(numbers.sample_time);
   memory->integral += period * error;
@@ -78,9 +78,9 @@ T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, bool is_first,
   }
   if (!is_first) {
     const T& tau = numbers.derivative_filter;
-    memory->error_rate = (tau * memory->error_rate + error - memory->last_error) / (tau + period);
+    memory->error_rate = (tau * memory->error_rate + rated - memory->last_error) / (tau + period);
   }
-  memory->last_error = error;
+  memory->last_error = rated;
   return numbers.gains.p * error + integral_term + numbers.gains.d * memory->error_rate;
 }
 

@@ -15,6 +15,8 @@ struct ControlRealization {
   bool antiwindup = false;  ///< kPid: the integral itself stays within i_clamp, not its term alone
   std::optional<Quantity>
       derivative_filter;  ///< kPid: time constant of the low-pass filter on the error's rate [s]
+  bool rates_input = false;  ///< kPid: d acts on the rate of minus the input, not on that of the
+                             ///< error
   std::optional<Quantity> output_limit;   ///< largest magnitude of the output [unit of the output]
   std::optional<Quantity> time_constant;  ///< of the drive, from the output to the effort [s]
   double sample_time = 0.0;               ///< [s]; 0: the controller is continuous

@@ -22,7 +22,6 @@ int growth(const ExpressionStep& step) {
     case Code::kVariable:
       return 1;
     case Code::kNegate:
-    case Code::kJump:
       return 0;
     case Code::kCall:
       return 1 - step.count;
@@ -80,8 +79,8 @@ std::string text_of(const ExpressionSteps& steps, int step, const std::string& t
   return of.end > of.begin ? text.substr(to_index(of.begin), to_index(of.end - of.begin)) : text;
 }
 
-// The two branches of `?:` are counted as if both were executed, which gives one number more than
-// is needed.
+// Both branches of `?:` are counted, one after the other: the jump behind the first one takes back
+// its value.
 int stack_size(const ExpressionSteps& steps) {
   int size = 0, largest = 0;
   for (const ExpressionStep& step : steps) {

@@ -10,6 +10,7 @@
 
 #include "description/control_realization.h"
 #include "description/expression.h"
+#include "description/parameter_switches.h"
 #include "description/reference.h"
 #include "description/signal.h"
 #include "description/solver_options.h"
@@ -151,6 +152,7 @@ struct MotionStudy {
   /// Indices of the parameters that a number of model or study depends on. Dependence of
   /// constraints does not count: a constraint alone has no effect on the motion.
   std::set<int> used_parameters;
+  std::vector<ParameterSwitch> switches;  ///< of its numbers and those of the model
   std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g, or of the sum over postures;
                                         ///< theory (21), (21f)

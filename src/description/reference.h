@@ -128,11 +128,14 @@ const ReferenceDescription& clock_function();
 
 /// The address of a joint's trajectory in a trajectory_msgs/JointTrajectory message of a bag, or of
 /// a column of a table.
+enum class CellDelimiter;
+
 struct TrajectoryAddress {
   std::string bag, topic, joint;
   SourceLocation where;                 ///< the place in the study that names it, for messages
   std::string element;                  ///< likewise
   std::string csv{}, column{}, time{};  ///< of a table: the file, and names of columns
+  CellDelimiter delimiter{};            ///< likewise, CellDelimiter::kAuto
 };
 
 /// The way-points of one joint of a recorded trajectory: times [s], then one value per time in the

@@ -2,15 +2,18 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "description/expression.h"
+#include "description/parameter_switches.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
+#include "math/mesh_moments.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
@@ -63,12 +66,14 @@ struct PoseDescription {
   QuantityVector rpy;  ///< fixed-axis roll, pitch, yaw [rad]
 };
 
-/// A visual or collision solid. The volume of a mesh is not computed; it counts as zero.
+/// A visual or collision solid.
 struct ShapeDescription {
   enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kMesh;
   PoseDescription origin;        ///< in the link frame; a cylinder's axis is its z
-  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m]
+  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m];
+                                 ///< mesh: its scale
+  std::shared_ptr<const MeshMoments> mesh;  ///< kMesh: in the unit of its file
 };
 
 /// Mass properties of a link, given as numbers or computed from its shapes.
@@ -232,6 +237,7 @@ struct RobotDescription {
   std::vector<Parameter> parameters;
   std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file
                                   ///< depends, visuals included
+  std::vector<ParameterSwitch> switches;  ///< of its numbers
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order

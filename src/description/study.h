@@ -15,10 +15,11 @@
 
 namespace codesign {
 
-/// A constraint among parameters, margin(parameters) >= 0.
+/// A constraint among parameters, margin(parameters) >= 0, or = 0.
 struct ParameterConstraint {
   std::string text;  ///< as written
   std::shared_ptr<const Expression> margin;
+  bool is_equality = false;
   SourceLocation where;
   std::string element;  ///< its place in the study, for messages: `constraints[0]`
 };

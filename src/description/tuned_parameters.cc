@@ -12,9 +12,9 @@ namespace codesign {
 namespace {
 
 constexpr const char* kFormOfConstraint =
-    "<expression> >= <expression> or <expression> <= <expression>";
+    "<expression> >= <expression>, or with <= or ==";
 
-/// Positions of the `>=` and `<=` outside parentheses. Those inside belong to conditional
+/// Positions of the `>=`, `<=` and `==` outside parentheses. Those inside belong to conditional
 /// expressions.
 std::vector<std::size_t> find_operators(const std::string& text) {
   std::vector<std::size_t> positions;
@@ -22,9 +22,11 @@ std::vector<std::size_t> find_operators(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '(') ++depth;
     if (text[i] == ')') --depth;
-    const bool is_operator =
-        (text[i] == '<' || text[i] == '>') && i + 1 < text.size() && text[i + 1] == '=';
-    if (is_operator && depth == 0) positions.push_back(i);
+    const bool is_operator = (text[i] == '<' || text[i] == '>' || text[i] == '=') &&
+                             i + 1 < text.size() && text[i + 1] == '=';
+    if (!is_operator) continue;
+    if (depth == 0) positions.push_back(i);
+    ++i;
   }
   return positions;
 }
@@ -36,12 +38,16 @@ ParameterConstraint parse_constraint(const std::string& text, const std::vector<
   const std::vector<std::size_t> operators = find_operators(text);
   if (operators.size() != 1)
     throw InputError(
-        {where, element, "a constraint needs exactly one >= or <=", text, kFormOfConstraint});
+        {where, element, "a constraint needs exactly one >=, <= or ==", text, kFormOfConstraint});
   const std::string left = text.substr(0, operators[0]);
   const std::string right = text.substr(operators[0] + 2);
+  const char kind = text[operators[0]];
   try {
-    return text[operators[0]] == '>' ? make_constraint(text, right, left, names, where, element)
-                                     : make_constraint(text, left, right, names, where, element);
+    ParameterConstraint constraint =
+        kind == '>' ? make_constraint(text, right, left, names, where, element)
+                    : make_constraint(text, left, right, names, where, element);
+    constraint.is_equality = kind == '=';
+    return constraint;
   } catch (const std::invalid_argument& error) {
     throw InputError({where, element, error.what(), text, kFormOfConstraint});
   }
@@ -56,7 +62,7 @@ ParameterConstraint make_constraint(const std::string& text, const std::string& 
   auto margin = std::make_shared<const Expression>("(" + more + ") - (" + less + ")", names);
   if (margin->dependencies().empty())
     throw std::invalid_argument("no parameter appears in the constraint");
-  return {text, std::move(margin), where, element};
+  return {text, std::move(margin), false, where, element};
 }
 
 bool has_objective(const MotionStudy& study) {

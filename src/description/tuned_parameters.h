@@ -10,8 +10,9 @@
 
 namespace codesign {
 
-/// Reads `left >= right` or `left <= right`, both sides expressions of the parameters `names`. The
-/// margin is left - right or right - left; the constraint holds where it is not negative.
+/// Reads `left >= right`, `left <= right` or `left == right`, both sides expressions of the
+/// parameters `names`. The margin is left - right of the first, else right - left; the constraint
+/// holds where it is not negative, an equality where it is zero.
 /// @throws InputError if there is not exactly one such operator outside parentheses, if a side is
 /// not a valid expression, or if no parameter appears.
 ParameterConstraint parse_constraint(const std::string& text, const std::vector<std::string>& names,

@@ -36,11 +36,25 @@ const ControlRealization& realization_of(const StateView<T>& view, int controlle
   return view.system.study().controllers[to_index(controller)].realization;
 }
 
+/// What the derivative of a PID acts on, theory (C3): e, or -x with `derivative: measurement`.
+template <class T>
+T rated_error(const StateView<T>& view, int controller) {
+  if (!realization_of(view, controller).rates_input) return controller_error(view, controller);
+  return -signal_value(view, view.controller(controller).input);
+}
+
+/// Its rate: e', or -x'.
+template <class T>
+T rated_error_rate(const StateView<T>& view, int controller) {
+  if (!realization_of(view, controller).rates_input) return controller_error_rate(view, controller);
+  return -signal_value(view, view.controller(controller).input_rate);
+}
+
 /// The rate of the filtered error, (e - x) / tau of (50).
 template <class T>
 T filtered_error_rate(const StateView<T>& view, int controller) {
   const T per_tau = T(1.0) / view.controller_numbers(controller).derivative_filter;
-  return per_tau * (controller_error(view, controller) -
+  return per_tau * (rated_error(view, controller) -
                     view.state->s[view.controller(controller).states.filter]);
 }
 
@@ -58,7 +72,7 @@ ControlValues<T> error_values(const StateView<T>& view, int controller) {
   if (resolved.states.filter >= 0)
     x.error_rate = filtered_error_rate(view, controller);
   else if (!resolved.input_rate.empty())
-    x.error_rate = controller_error_rate(view, controller);
+    x.error_rate = rated_error_rate(view, controller);
   if (!realization.i_clamp || realization.antiwindup || resolved.state < 0) return x;
   x.clamped = saturate(T(k.pid.i * x.integral), k.i_clamp).value;
   x.integral = T(0.0);

@@ -9,13 +9,18 @@ namespace codesign {
 
 // The rate of the effort of a joint, theory (54).
 
-/// r' - x' or r'' - x'', the k-th derivative of the error of a PID, k = 1 or 2.
+/// -x' or -x'', the k-th derivative of minus the input of a PID, k = 1 or 2.
+template <class T>
+T input_derivative(const StateView<T>& view, int controller, int k) {
+  return -signal_value(view, view.controller(controller).output_rate[to_index(k - 1)]);
+}
+
+/// r' - x' or r'' - x'', the k-th derivative of the error of a PID.
 template <class T>
 T error_derivative(const StateView<T>& view, int controller, int k) {
   const ReferenceMotion<T> setpoint =
       view.controller_numbers(controller).setpoint.at(view.state->t);
-  const Signal& signal = view.controller(controller).output_rate[to_index(k - 1)];
-  return (k == 1 ? setpoint.rate : setpoint.acceleration) - signal_value(view, signal);
+  return (k == 1 ? setpoint.rate : setpoint.acceleration) + input_derivative(view, controller, k);
 }
 
 /// The rate of the integral term of a PID.
@@ -30,15 +35,17 @@ T integral_term_rate(const StateView<T>& view, int controller) {
   return saturate(T(k.pid.i * view.state->s[s]), k.i_clamp).slope * rate;
 }
 
-/// k_d times the rate of e', or of the filtered e'.
+/// k_d times the rate of what the derivative acts on, or of its filtered value.
 template <class T>
 T derivative_term_rate(const StateView<T>& view, int controller) {
   const ControllerConstants<T>& k = view.controller_numbers(controller);
   if (view.system.study().controllers[to_index(controller)].d.is_zero()) return T(0.0);
-  if (view.controller(controller).states.filter < 0)
-    return k.pid.d * error_derivative(view, controller, 2);
-  return k.pid.d / k.derivative_filter *
-         (error_derivative(view, controller, 1) - filtered_error_rate(view, controller));
+  const auto derivative = [&](int order) {
+    return realization_of(view, controller).rates_input ? input_derivative(view, controller, order)
+                                                        : error_derivative(view, controller, order);
+  };
+  if (view.controller(controller).states.filter < 0) return k.pid.d * derivative(2);
+  return k.pid.d / k.derivative_filter * (derivative(1) - filtered_error_rate(view, controller));
 }
 
 /// The rate of the output by the law of a continuous controller; Controller::has_output_rate must

@@ -38,7 +38,10 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   const SampledPidNumbers<T> numbers{k.pid, realization.sample_time, k.derivative_filter,
                                      realization.i_clamp ? &k.i_clamp : nullptr,
                                      realization.antiwindup};
-  const T output = sample_pid(numbers, measured_error(view, controller), is_first, &memory);
+  const T error = measured_error(view, controller);
+  const T rated =
+      realization.rates_input ? T(error - k.setpoint.at(view.state->t).value) : error;
+  const T output = sample_pid(numbers, error, rated, is_first, &memory);
   write(resolved.state, memory.integral);
   write(resolved.states.last, memory.last_error);
   write(resolved.states.filter, memory.error_rate);
@@ -79,16 +82,16 @@ void jump_controller(const System& system, const ControlEvent& event, const Samp
 
 /// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first
 /// sample.
-/// @param sample as of jump_controller(). @param error controller -> its error.
-template <class T, class Sample, class Error>
+/// @param sample as of jump_controller(). @param rated controller -> its rated_error().
+template <class T, class Sample, class Rated>
 void begin_controller(const System& system, int controller, const Sample& sample,
-                      const Error& error, VectorX<T>* s) {
+                      const Rated& rated, VectorX<T>* s) {
   const auto c = to_index(controller);
   const int filter = system.controllers()[c].states.filter;
   if (system.study().controllers[c].realization.is_sampled())
     jump_controller(system, {ControlEvent::Kind::kSample, controller, 0}, sample, s);
   else if (filter >= 0)
-    (*s)[filter] = error(controller);
+    (*s)[filter] = rated(controller);
 }
 
 }  // namespace codesign

@@ -71,6 +71,15 @@ Ensemble::Ensemble(std::shared_ptr<const CompiledSystem> system)
     : Ensemble({own_run(std::move(system))}, RobustOptions{},
                make_engine({EngineKind::kSerial, 0}, 1)) {}
 
+Ensemble Ensemble::with(Scenario scenario) const {
+  std::vector<Scenario> all = scenarios_;
+  const double sum = 1.0 + scenario.weight;
+  scenario.sample = all.back().sample + 1;
+  all.push_back(std::move(scenario));
+  for (Scenario& one : all) one.weight /= sum;
+  return Ensemble(std::move(all), options_, engine_);
+}
+
 std::vector<EvaluationTask> tasks_at(const std::vector<Scenario>& scenarios,
                                      const Eigen::VectorXd& rho, Derivatives derivatives) {
   std::vector<EvaluationTask> tasks;
@@ -215,6 +224,27 @@ namespace {
 
 constexpr double kCoarse = 0.01;  // share of a gradient that its steps may change
 
+/// Whether the gradient through finer steps differs by more than what moves no optimum, as
+/// differences of the objective tell it: beside an optimum, where the gradient is what the
+/// tolerances leave, a change by its whole size means nothing. True if they tell nothing.
+bool change_counts(const GradientCheck& check) {
+  const IndependentCheck& known = check.independent;
+  const Eigen::VectorXd& gradient = check.evaluation.gradient;
+  if (!known.is_known()) return true;
+  const double bound = known.allowed + known.error;
+  const auto size = [&](const Eigen::VectorXd& direction) {
+    return direction.cwiseProduct(gradient).cwiseAbs().maxCoeff();
+  };
+  if (check.directions.size() == 0)
+    return (check.finer - gradient).cwiseProduct(known.direction).cwiseAbs().maxCoeff() > bound;
+  for (Eigen::Index k = 0; k < check.directions.cols(); ++k) {
+    const Eigen::VectorXd direction = check.directions.col(k);
+    const double change = std::abs(direction.dot(gradient) - check.finer[k]), of = size(direction);
+    if (of > 0.0 ? change * size(known.direction) / of > bound : change > 0.0) return true;
+  }
+  return false;
+}
+
 /// @param directions how many; 0: by each parameter.
 GradientCheck checked(const Ensemble& ensemble, const Eigen::VectorXd& rho, CheckMethod method,
                       int directions, const std::atomic<bool>* cancel) {
@@ -280,7 +310,7 @@ void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
   }
   check->finer = std::move(sum);
   compare(check);
-  if (check->largest_change > kCoarse)
+  if (check->largest_change > kCoarse && change_counts(*check))
     check->evaluation.warnings.push_back(
         warn("coarse_gradient",
              {{ensemble.scenarios().front().system->whole_study().file, 1},

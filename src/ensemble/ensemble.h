@@ -40,6 +40,8 @@ class Ensemble {
   /// @param designs the largest number of designs evaluated at the same time. @param records memory
   /// and counts of the job.
   explicit Ensemble(const Problem& problem, int designs = 1, EngineRecords records = {});
+  /// The same with one scenario more; the weights are scaled to the sum 1.
+  Ensemble with(Scenario scenario) const;
   /// Takes the run of a compiled study as the only scenario.
   explicit Ensemble(std::shared_ptr<const CompiledSystem> system);
 
@@ -86,7 +88,8 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
                           const std::atomic<bool>* cancel = nullptr);
 
 /// Sets GradientCheck::finer and largest_change of an ended check, with the warning
-/// `coarse_gradient` in its evaluation if the gradient changes by more than a hundredth. Does
+/// `coarse_gradient` in its evaluation if the gradient changes by more than a hundredth, and where
+/// check_other_steps() was called before, by more than what moves no optimum. Does
 /// nothing where a run cannot be repeated (idas, postures, bands), where its steps obey
 /// solver.sensitivity_tolerance, and if a run with smaller tolerances fails.
 void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,

@@ -8,6 +8,7 @@
 
 #include "description/study.h"
 #include "math/arrays.h"
+#include "problem/margins.h"
 
 namespace codesign {
 namespace {
@@ -35,6 +36,10 @@ ParameterRows::ParameterRows(const Study& study, const std::vector<Scenario>& sc
   }
 }
 
+bool ParameterRows::is_equality(const Row& row) const {
+  return study_.constraints[row.constraint].is_equality;
+}
+
 double ParameterRows::margin(const Row& row, const Eigen::VectorXd& rho,
                              Eigen::VectorXd* by_rho) const {
   const Expression& margin = *study_.constraints[row.constraint].margin;
@@ -52,7 +57,8 @@ Eigen::VectorXd ParameterRows::margins(const Eigen::VectorXd& rho) const {
                                                       std::numeric_limits<double>::infinity());
   for (const Row& row : rows_) {
     double& smallest = margins[to_signed(row.constraint)];
-    const double one = margin(row, rho, nullptr);
+    const double one = margin_left(study_.constraints[row.constraint],
+                                   scenarios_[row.scenario].parameters(rho));
     if (std::isnan(one) || one < smallest) smallest = one;
   }
   return margins;

@@ -22,11 +22,12 @@ class ParameterRows {
   ParameterRows(const Study& study, const std::vector<Scenario>& scenarios);
 
   const std::vector<Row>& rows() const { return rows_; }
+  bool is_equality(const Row& row) const;
   /// The margin of a row at a design, in the unit of the constraint; negative where it is violated,
-  /// NaN where it has no real value.
+  /// of an equality not zero; NaN where it has no real value.
   /// @param by_rho if not null, its derivatives by the tuned parameters.
   double margin(const Row& row, const Eigen::VectorXd& rho, Eigen::VectorXd* by_rho) const;
-  /// The smallest margin of each constraint over its rows, NaN if the margin of a row is NaN; order
+  /// The least margin_left() of each constraint over its rows, NaN if the margin of a row is NaN; order
   /// of Study::constraints.
   Eigen::VectorXd margins(const Eigen::VectorXd& rho) const;
   /// @throws InputError naming the first constraint and scenario whose margin is not finite at the

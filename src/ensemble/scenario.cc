@@ -89,7 +89,12 @@ std::vector<Scenario> make_scenarios(const Problem& problem) {
   const RobustOptions options = ensemble.robust_options();
   // A single sample is the nominal one.
   if (ensemble.uncertain.empty() || options.samples == 1) return combine(problem, {});
-  return combine(problem, draw(ensemble.uncertain, options.sampler, options.samples, options.seed));
+  std::vector<std::vector<double>> samples =
+      draw(ensemble.uncertain, options.sampler, options.samples, options.seed);
+  if (options.measure == RobustMeasure::kWorst)
+    for (std::vector<double>& corner : corners(ensemble.uncertain))
+      samples.push_back(std::move(corner));
+  return combine(problem, samples);
 }
 
 std::vector<Scenario> make_validation_scenarios(const Problem& problem, int count) {

@@ -34,7 +34,8 @@ struct Scenario {
 };
 
 /// The scenarios of a problem, weights with sum 1: each run at each sample. Without `runs` and
-/// `uncertain` the one scenario is the study's own run. All runs share the same samples.
+/// `uncertain` the one scenario is the study's own run. All runs share the same samples, which for
+/// kWorst end with the corners().
 std::vector<Scenario> make_scenarios(const Problem& problem);
 
 /// Each run at `count` fresh samples, to validate a design: the seed differs from the study's.

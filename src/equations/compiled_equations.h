@@ -97,7 +97,7 @@ class CompiledEquations {
   /// stuck_slips() at a state. @param accelerations, limits of their sizes.
   void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
   /// The error of a controller; its output at a sample, which updates its memory in state->s.
-  T controller_error(int controller, const State<T>& state);
+  T rated_error(int controller, const State<T>& state);
   T sample(int controller, bool is_first, State<T>* state);
 
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only.

@@ -219,7 +219,7 @@ void EquationCode::record_start(RecordedEquations* equations) {
     formulas.load(state);
     record(controller_function(controller, ControllerFunction::kError), [&] {
       return std::vector<VectorX<Traced>>{
-          VectorX<Traced>::Constant(1, formulas.controller_error(controller))};
+          VectorX<Traced>::Constant(1, formulas.rated_error(controller))};
     });
     if (!system_.study().controllers[k].realization.is_sampled()) continue;
     for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample})

@@ -109,14 +109,14 @@ void Equations<T>::begin_controllers(State<T>* state) {
   const auto sampled = [&](int controller, bool is_first) {
     return sample(controller, is_first, state);
   };
-  const auto error = [&](int controller) {
+  const auto rated = [&](int controller) {
     if constexpr (kIsReal)
-      return formulas_->controller_error(controller);
+      return formulas_->rated_error(controller);
     else
-      return start_.controller_error(controller, *state);
+      return start_.rated_error(controller, *state);
   };
   for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    begin_controller(system_, static_cast<int>(c), sampled, error, &state->s);
+    begin_controller(system_, static_cast<int>(c), sampled, rated, &state->s);
 }
 
 template <class T>

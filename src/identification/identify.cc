@@ -160,7 +160,7 @@ Warnings warnings_of_unexplained(const Problem& problem,
 Warnings unmet_constraints(const Study& study, const std::vector<double>& parameters) {
   Warnings warnings;
   for (const ParameterConstraint& constraint : study.constraints)
-    if (const double margin = constraint.margin->value(parameters);
+    if (const double margin = margin_left(constraint, parameters);
         !(margin >= least_margin(study, constraint)))
       warnings.push_back(
           warn("identified_outside_constraint",

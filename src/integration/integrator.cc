@@ -16,6 +16,16 @@ void Integrator::obey(const std::atomic<bool>* cancel) {
   assembly().obey(cancel);
 }
 
+double Integrator::of_squares(double integral, double terminal) {
+  const double psi = integral + terminal;
+  if (!(psi < 0.0)) return psi;
+  const auto& design = equations().formulas().view().design;
+  for (const std::vector<double>* weights : {&design.integral.weights, &design.terminal.weights})
+    for (const double weight : *weights)
+      if (!(weight >= 0.0)) return psi;
+  return 0.0;
+}
+
 Status Integrator::check_end(const MotionStudy& study, const std::vector<double>& parameters) {
   if (!study.duration_of_design) return {};
   const double end = duration_at(study, parameters);

@@ -86,6 +86,7 @@ class Simulation::Implementation {
     integrator_->interpolate(time, &sample_, &psi);
     if (integrator_->state().t > 0.0)
       integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
+    psi = integrator_->of_squares(psi);
     observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(),
                       frame);
   }
@@ -95,7 +96,7 @@ class Simulation::Implementation {
     // The rates of a multistep method do not fulfil the equations.
     if (system_->study().solver.integrator == IntegratorKind::kIdas)
       integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
-    return integrator_->psi() + integrator_->equations().terminal(sample_);
+    return integrator_->of_squares(integrator_->psi(), integrator_->equations().terminal(sample_));
   }
   double time() const { return integrator_->state().t; }
   double end() const { return integrator_->end(); }

@@ -12,6 +12,7 @@
 #include "jobs/json_records.h"
 #include "jobs/shown_signals.h"
 #include "math/arrays.h"
+#include "math/cpu_timer.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
@@ -221,10 +222,12 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   };
   RunSummary summary;
   const int postures = study_of(problem).postures;
+  const CpuTimer timer;
   summary.status = codesign::simulate(&simulation, study_of(problem).duration,
                                       postures > 0 ? postures : samples, observer, cancel);
   summary.end = simulation.time();
   summary.statistics = simulation.statistics();
+  summary.sample_seconds = std::max(0.0, timer.seconds() - summary.statistics.cpu_seconds);
   summary.methods = simulation.methods();
   summary.events = simulation.events();
   summary.warnings = simulation.warnings();

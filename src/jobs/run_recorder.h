@@ -91,6 +91,8 @@ struct RunSummary {
   Events events;                         ///< Simulation::events()
   Warnings warnings;                     ///< Simulation::warnings()
   double end = 0.0;                      ///< of the run [s]
+  /// Processor time of the samples and of `sink` [s], which `statistics` do not count.
+  double sample_seconds = 0.0;
   /// The study's objective; empty if the study has none or a peak, or if the run stops before its
   /// end.
   std::optional<double> objective;

@@ -56,8 +56,27 @@ Matrix3<T> point_inertia(const T& mass, const Vector3<T>& d) {
   return mass * (square * Matrix3<T>::Identity() - d * d.transpose());
 }
 
-/// A homogeneous solid about its own centre, in its own axes. A mesh counts as a solid without
-/// volume.
+/// The solid of a mesh about its centre of mass, which is not the origin of its axes.
+template <class T>
+MassProperties<T> mesh_solid(const MeshMoments& mesh, const T& density, const Vector3<T>& scale) {
+  MassProperties<T> result;
+  T volume = scale[0] * scale[1] * scale[2];
+  if (is_less(volume, T(0.0), false)) volume = -volume;  // it is mirrored
+  result.mass = density * volume * mesh.volume;
+  const Vector3<double> mean = mesh.first / mesh.volume;
+  Matrix3<T> S;  // second moments about the centre
+  for (int i = 0; i < 3; ++i) {
+    result.centre[i] = scale[i] * mean[i];
+    for (int k = 0; k < 3; ++k)
+      S(i, k) = density * volume * scale[i] * scale[k] *
+                (mesh.second(i, k) - mesh.volume * mean[i] * mean[k]);
+  }
+  const T trace = S(0, 0) + S(1, 1) + S(2, 2);
+  result.inertia = trace * Matrix3<T>::Identity() - S;
+  return result;
+}
+
+/// A homogeneous solid about its own centre, in its own axes.
 template <class T>
 MassProperties<T> solid(const ShapeDescription& shape, const T& density,
                         const std::vector<T>& parameters) {
@@ -86,7 +105,7 @@ MassProperties<T> solid(const ShapeDescription& shape, const T& density,
       break;
     }
     case ShapeDescription::Kind::kMesh:
-      break;
+      return mesh_solid(*shape.mesh, density, size);
   }
   result.inertia = J.asDiagonal();
   return result;
@@ -103,9 +122,11 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
   MassProperties<T> total;
   for (const ShapeDescription& shape : inertial.shapes) {
     MassProperties<T> part = solid(shape, density, parameters);
+    const Matrix3<T> R = rotation_from_rpy<T>(values_at(shape.origin.rpy, parameters));
+    const Vector3<T> own = part.centre;
     part.centre = values_at(shape.origin.xyz, parameters);
-    part.inertia =
-        turned(rotation_from_rpy<T>(values_at(shape.origin.rpy, parameters)), part.inertia);
+    if (shape.kind == ShapeDescription::Kind::kMesh) part.centre += R * own;
+    part.inertia = turned(R, part.inertia);
     total.mass += part.mass;
     total.centre += part.mass * part.centre;
     parts.push_back(part);
@@ -122,7 +143,8 @@ MassProperties<T> from_shapes(const InertialDescription& inertial, const std::ve
 }  // namespace internal
 
 /// Mass properties of a link at `parameters`: the numbers given or, with a density, computed from
-/// its boxes, cylinders and spheres by the parallel-axis theorem; overlapping solids count twice.
+/// its boxes, cylinders, spheres and meshes by the parallel-axis theorem; overlapping solids count
+/// twice.
 /// @param workspace overwritten.
 template <class T>
 MassProperties<T> mass_properties(const InertialDescription& inertial,

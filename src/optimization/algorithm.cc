@@ -45,6 +45,12 @@ std::string names(const Predicate& is_listed) {
   return list;
 }
 
+/// Whether a constraint among parameters is an equality.
+bool has_equality(const Study& study) {
+  return std::any_of(study.constraints.begin(), study.constraints.end(),
+                     [](const ParameterConstraint& one) { return one.is_equality; });
+}
+
 /// Checks that the algorithm takes the constraints of the study. @param with_slack whether the
 /// robust measure adds constraints.
 void check_constraints(const Study& study, const Algorithm& algorithm, bool with_slack,
@@ -70,8 +76,12 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
           false);
   }
   if (!algorithm.takes_equalities &&
-      std::any_of(study.watched.begin(), study.watched.end(), is_equality))
-    refuse("this algorithm takes no equality constraints, such as final with equal bounds", true);
+      (has_equality(study) ||
+       std::any_of(study.watched.begin(), study.watched.end(), is_equality)))
+    refuse(
+        "this algorithm takes no equality constraints, such as == among parameters and final with "
+        "equal bounds",
+        true);
 }
 
 }  // namespace
@@ -133,13 +143,15 @@ std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptio
                                         RobustMeasure measure, bool with_slack) {
   if (options.algorithm != kAuto) return {options.algorithm};
   // Constraints among parameters are often inactive at the optimum. Where one is active, least
-  // squares without it do not end at a stationary point, and the next algorithm goes on.
+  // squares without it do not end at a stationary point, and the next algorithm goes on. An
+  // equality is always active.
   Study without_constraints = study;
   without_constraints.constraints.clear();
   std::vector<std::string> list;
   for (const char* name : {kLeastSquares, "slsqp", "lbfgs", "mma"}) {
     OptimizerOptions candidate = options;
     candidate.algorithm = name;
+    if (is_least_squares(name) && has_equality(study)) continue;
     try {
       check_algorithm(is_least_squares(name) ? without_constraints : study, candidate, with_slack);
       if (is_least_squares(name)) check_squares(study, candidate, measure);

@@ -59,7 +59,7 @@ std::vector<Holder> rows_at(const Eigen::VectorXd& rho, const Eigen::VectorXd& y
     value.value = -parameters.margin(row, rho, &value.by_rho);
     value.by_rho = -value.by_rho;
     value.by_slack.setZero(y.size());
-    add_row(value, false, scaling, &rows);
+    add_row(value, parameters.is_equality(row), scaling, &rows);
   }
   return rows;
 }
@@ -107,8 +107,8 @@ Optimality optimality(const EnsembleEvaluation& at, const Eigen::VectorXd& rho,
   std::vector<Eigen::VectorXd> active;
   for (std::size_t k = 0; k < holders.size(); ++k) {
     const double c = multipliers.values[static_cast<Index>(k)];
-    if (c == 0.0) continue;
-    if (k < rows) active.push_back(holders[k].leading);
+    // An equality holds whatever it is worth.
+    if (k < rows && (c != 0.0 || holders[k].any_sign)) active.push_back(holders[k].leading);
     if (holders[k].is_on_bound() && holders[k].others[0].first < tuned)
       result.bounds[holders[k].others[0].first] += c * holders[k].others[0].second * unit;
   }

@@ -24,7 +24,8 @@ struct Optimality {
   Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the
                            ///< lower one, negative at the upper one
   Eigen::MatrixXd
-      active;  ///< gradients by the scaled parameters of the rows with a multiplier, one per column
+      active;  ///< gradients by the scaled parameters of the rows with a multiplier and of all
+               ///< equalities, one per column
   int factorizations = 0;  ///< of matrices of the variables, as a measure of the work
 };
 

@@ -33,8 +33,11 @@ class Minimization {
   Minimization(const Study& study, const OptimizerOptions& options, const Scaling& scaling,
                SmoothProgram* program, SearchTrials* trials)
       : study_(study), options_(options), scaling_(scaling), program_(*program), trials_(*trials) {
-    for (const ParameterRows::Row& row : trials_.parameter_rows().rows())
-      constraints_.push_back({this, row});
+    for (const ParameterRows::Row& row : trials_.parameter_rows().rows()) {
+      const bool is_equality = trials_.parameter_rows().is_equality(row);
+      constraints_.push_back({this, row, is_equality, -1.0});
+      if (is_equality) constraints_.push_back({this, row, true, 1.0});
+    }
   }
 
   /// Sets the termination. @returns why the algorithm failed, if it did.
@@ -52,6 +55,8 @@ class Minimization {
   struct Constraint {
     Minimization* owner;
     ParameterRows::Row row;
+    bool is_equality;
+    double sign;  ///< of the margin in the left side of a row c <= 0
   };
 
   void configure(nlopt::opt* optimizer) {
@@ -67,12 +72,7 @@ class Minimization {
     // NLopt counts calls: this limit ends an algorithm that asks for the same points only.
     optimizer->set_maxeval(static_cast<int>(
         std::min<std::int64_t>(kCallsPerEvaluation * options_.max_evaluations + 1000, INT_MAX)));
-    for (Constraint& constraint : constraints_)
-      optimizer->add_inequality_constraint(
-          &Minimization::constraint_callback, &constraint,
-          std::min(
-              kRowTolerance,
-              kRowShare * -least_margin(study_, study_.constraints[constraint.row.constraint])));
+    add_constraints(optimizer);
     const auto tolerances = [](int n) { return std::vector<double>(to_index(n), kRowTolerance); };
     if (program_.inequalities() > 0)
       optimizer->add_inequality_mconstraint(&Minimization::inequality_callback, this,
@@ -84,6 +84,21 @@ class Minimization {
     else if (equalities > 0)
       optimizer->add_equality_mconstraint(&Minimization::equality_callback, this,
                                           tolerances(equalities));
+  }
+
+  /// The constraints among parameters: an equality as one row, or as both of its sides.
+  void add_constraints(nlopt::opt* optimizer) {
+    for (Constraint& constraint : constraints_) {
+      const double tolerance = std::min(
+          kRowTolerance,
+          kRowShare * -least_margin(study_, study_.constraints[constraint.row.constraint]));
+      if (!constraint.is_equality || moves_inside_)
+        optimizer->add_inequality_constraint(&Minimization::constraint_callback, &constraint,
+                                             tolerance);
+      else if (constraint.sign < 0.0)
+        optimizer->add_equality_constraint(&Minimization::constraint_callback, &constraint,
+                                           tolerance);
+    }
   }
 
   /// Appends the slack variables at the start.
@@ -98,7 +113,8 @@ class Minimization {
   /// Whether a search that ended at a violated bound of a signal goes on from the best point: SLSQP
   /// may stop by the objective's tolerance while it is still outside.
   bool should_restart() {
-    const bool ended_outside = program_.has_signals() && trials_.have_best() &&
+    const bool ended_outside = (program_.has_signals() || has_equalities()) &&
+                               trials_.have_best() &&
                                !trials_.interrupted() && !trials_.best_keeps_bounds();
     const bool has_progressed =
         trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
@@ -130,6 +146,11 @@ class Minimization {
     if (trials_.interrupted() || result_.cost.evaluations >= options_.max_evaluations) return;
     std::vector<double> x = scaling_.to_scaled(rho);
     minimize(optimizer, &x);
+  }
+
+  bool has_equalities() const {
+    return std::any_of(constraints_.begin(), constraints_.end(),
+                       [](const Constraint& one) { return one.is_equality; });
   }
 
   unsigned dimension() const {
@@ -173,7 +194,7 @@ class Minimization {
     return static_cast<Minimization*>(self)->objective(x, &gradient);
   }
 
-  // -margin(rho) <= 0.
+  // -margin(rho) <= 0, or = 0.
   static double constraint_callback(const std::vector<double>& x, std::vector<double>& gradient,
                                     void* data) {
     const auto& constraint = *static_cast<Constraint*>(data);
@@ -186,8 +207,8 @@ class Minimization {
       return 1.0 + owner.scaling_.square_distance(owner.result_.best.rho, x, 1.0, &gradient);
     std::fill(gradient.begin(), gradient.end(), 0.0);
     for (std::size_t k = 0; k < gradient.size() && k < owner.study_.tuned.size(); ++k)
-      gradient[k] = -by_rho[to_signed(k)] * owner.scaling_.range(k);
-    return -margin;
+      gradient[k] = constraint.sign * by_rho[to_signed(k)] * owner.scaling_.range(k);
+    return constraint.sign * margin;
   }
 
   static void inequality_callback(unsigned count, double* values, unsigned size, const double* x,

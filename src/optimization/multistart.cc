@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "description/study.h"
 #include "engine/thread_engine.h"
@@ -18,6 +19,7 @@
 #include "optimization/search_results.h"
 #include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"
+#include "optimization/worst_rounds.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
 #include "sampling/sampler.h"
@@ -121,7 +123,7 @@ class Multistart {
         results[k].total.status.code = StatusCode::kCancelled;
         return;
       }
-      if (all_met(study_, parameter_rows_.margins(round[k])))
+      if (may_begin(study_, parameter_rows_.margins(round[k])))
         results[k] = ensemble_.evaluate(round[k], false, cancel_);
       if (results[k].values.size() > 0) meter_.count_point();
     });
@@ -169,13 +171,25 @@ class Multistart {
     }
     std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
     OptimizationResult best = choose(found);
+    add_sums(*found, &best);
+    Ensemble ensemble = ensemble_;
+    go_on(static_cast<int>(found->size()), &ensemble, &best);
     best.multistart.starts = std::move(starts);
     best.multistart.optima = std::move(optima);
-    add_sums(*found, &best);
-    confirm_stop(study_, options_, ensemble_, cancel_, &best);
-    take_study_start(&best);
-    describe_scenarios(problem_, ensemble_, cancel_, &meter_, &best);
+    confirm_stop(study_, options_, ensemble, cancel_, &best);
+    take_study_start(ensemble, &best);
+    describe_scenarios(problem_, ensemble, cancel_, &meter_, &best);
     return best;
+  }
+
+  /// The rounds of a worst case have the evaluations of a search.
+  void go_on(int start, Ensemble* ensemble, OptimizationResult* best) {
+    const SearchCost sums = std::exchange(best->cost, SearchCost());
+    add_worst_points(problem_, options_, observer_.of(start), cancel_, ensemble, best);
+    best->cost.iterations += sums.iterations;
+    best->cost.evaluations += sums.evaluations;
+    best->cost.failed_evaluations += sums.failed_evaluations;
+    best->cost.statistics += sums.statistics;
   }
 
   static StartResult describe(const Eigen::VectorXd& start, double objective,
@@ -240,14 +254,14 @@ class Multistart {
 
   /// The initial values in the result are the values at the study's start, if that can be
   /// evaluated.
-  void take_study_start(OptimizationResult* best) const {
+  void take_study_start(const Ensemble& ensemble, OptimizationResult* best) const {
     if (best->best.gradient.size() == 0 || is_set(cancel_)) return;
-    const EnsembleEvaluation start = ensemble_.evaluate(problem_.start(), true, cancel_);
+    const EnsembleEvaluation start = ensemble.evaluate(problem_.start(), true, cancel_);
     if (!start.total.status.ok()) return;
     best->initial.rho = problem_.start();
     best->initial.objective = start.total.objective;
     best->initial.gradient = start.total.gradient;
-    SmoothProgram program(ensemble_);
+    SmoothProgram program(ensemble);
     best->initial.slope =
         optimality(start, problem_.start(), scaling_, parameter_rows_, &program, cancel_).slope;
     best->initial.values = start.values;

@@ -10,6 +10,7 @@
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
 #include "optimization/search_trials.h"
+#include "optimization/worst_rounds.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -42,11 +43,12 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
                                const SearchHooks& hooks, const std::atomic<bool>* cancel) {
   ProgressMeter own_meter(options.max_evaluations, hooks.progress);
   ProgressMeter* const meter = hooks.meter ? hooks.meter : &own_meter;
-  const Ensemble ensemble(problem, 1, records_of(hooks, meter));
+  Ensemble ensemble(problem, 1, records_of(hooks, meter));
   meter->begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
   const TrialObserver observer = counted_trials(hooks, meter);
   OptimizationResult result =
       search_locally(study_of(problem), options, problem.start(), ensemble, observer, cancel);
+  add_worst_points(problem, options, observer, cancel, &ensemble, &result);
   confirm_stop(study_of(problem), options, ensemble, cancel, &result);
   describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;

@@ -22,8 +22,10 @@ Scaling::Scaling(const Study& study) : study_(study), start_(to_signed(study.tun
 bool Scaling::reach(std::size_t k, double rho, double reach) {
   const Parameter& p = study_.parameters[to_index(study_.tuned[k])];
   if (has_range(p)) return false;
-  const double least = extent(p, rho), before = range_[k];
-  range_[k] = std::min(kFarthest * least, std::max(least, reach));
+  const double size = extent(p, rho), before = range_[k];
+  const bool has_size = p.value != 0.0 || !(reach > 0.0);
+  const double least = has_size ? size : std::max(std::abs(rho), 1.0 / kFarthest);
+  range_[k] = std::min(kFarthest * size, std::max(least, reach));
   lower_[k] = p.lower / range_[k];
   upper_[k] = p.upper / range_[k];
   return range_[k] != before;

@@ -10,7 +10,7 @@ struct Study;
 
 /// The largest range of a parameter without bounds, in its extent: farther ones follow from slopes
 /// that are rounding.
-constexpr double kFarthest = 1e6;
+constexpr double kFarthest = 1e10;
 
 /// Scaled variables of the optimizer, doc/theory.md (24): x = (rho - lower) / (upper - lower), or
 /// rho over the magnitude of its start value where a bound is missing, or over its reach() once a
@@ -30,8 +30,10 @@ class Scaling {
   std::vector<double> upper() const { return upper_; }
   /// d rho_k / d x_k.
   double range(std::size_t k) const { return range_[k]; }
-  /// Takes a range for a parameter without one, from its extent() at `rho` to kFarthest times that.
-  /// @param reach the distance over which the slope of the objective is worth the objective itself.
+  /// Takes a range for a parameter without one, from its extent() at `rho` to kFarthest times that;
+  /// of one that began at zero, whose start tells no size, from |rho| on.
+  /// @param reach the distance over which the slope of the objective is worth the objective itself;
+  /// 0: unknown.
   /// @returns whether the range has changed.
   bool reach(std::size_t k, double rho, double reach);
 

@@ -93,6 +93,7 @@ std::optional<Validation> validate(const Problem& problem, const Ensemble& ensem
 constexpr double kOnBound = 1e-6;
 constexpr double kWidening = 0.01;  // of the range, for the worth of a bound
 constexpr Eigen::Index kMostListed = 5;
+constexpr double kEndless = 1e6;  // extents beyond which an objective counts as falling without end
 
 void add_evaluations_warning(const Study& study, const OptimizerOptions& options,
                              const OptimizationResult& result, Warnings* warnings) {
@@ -139,7 +140,7 @@ std::string endless(const Study& study, const OptimizationResult& result) {
   std::string names;
   for (std::size_t k = 0; k < study.tuned.size() && result.best.objective < 0.0; ++k) {
     const Parameter& parameter = study.parameters[to_index(study.tuned[k])];
-    if (std::abs(result.best.rho[to_signed(k)]) > kFarthest * extent(parameter, 0.0))
+    if (std::abs(result.best.rho[to_signed(k)]) > kEndless * extent(parameter, 0.0))
       names += (names.empty() ? "" : ", ") + parameter.name;
   }
   return names.empty()
@@ -149,7 +150,15 @@ std::string endless(const Study& study, const OptimizationResult& result) {
 
 void add_stop_warning(const Study& study, const OptimizerOptions& options,
                       const OptimizationResult& result, Warnings* warnings) {
-  if (result.termination != "stopped_early") return;
+  if (!result.optimality.unjudged.empty())
+    warnings->push_back(warn(
+        "objective_jumps",
+        {where_of(options, study), "optimizer",
+         "no slope tells whether the best point is an optimum: " + result.optimality.unjudged +
+             "; compare values of these parameters one by one, each fixed by tune: false, or write "
+             "what they do without jumps",
+         "", ""}));
+  if (result.termination != "stopped_early" || !result.optimality.unjudged.empty()) return;
   warnings->push_back(warn(
       "not_stationary",
       {where_of(options, study), "optimizer",
@@ -165,28 +174,27 @@ void add_stop_warning(const Study& study, const OptimizerOptions& options,
 
 void add_flat_warning(const Study& study, const OptimizerOptions& options,
                       const OptimizationResult& result, Warnings* warnings) {
-  const Eigen::Index count = result.optimality.flat_directions.cols();
+  const Eigen::MatrixXd& points = result.optimality.flat_points;
+  const Eigen::Index count = points.cols();
   if (count == 0) return;
   std::string list;
   for (Eigen::Index d = 0; d < std::min<Eigen::Index>(count, kMostListed); ++d) {
-    std::string direction;
-    for (Eigen::Index k = 0; k < result.optimality.flat_directions.rows(); ++k) {
-      const double by = result.optimality.flat_directions(k, d);
-      if (by == 0.0) continue;
+    std::string point;
+    for (Eigen::Index k = 0; k < points.rows(); ++k) {
+      if (points(k, d) == result.best.rho[k]) continue;
       const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
-      direction += (direction.empty() ? "" : ", ") + parameter.name + (by > 0.0 ? " +" : " ") +
-                   readable(by, 3);
+      point += (point.empty() ? "" : ", ") + parameter.name + " " + readable(points(k, d));
     }
-    list += (d == 0 ? "" : "; ") + direction;
+    list += (d == 0 ? "" : "; or ") + point;
   }
-  if (count > kMostListed) list += "; ...";
+  if (count > kMostListed) list += "; or ...";
   warnings->push_back(
       warn("flat_direction",
            {where_of(options, study), "parameters",
             "the optimum is not one point: the objective does not change along " +
                 (count == 1 ? std::string("a direction") : std::to_string(count) + " directions") +
-                " of the parameters, so that other values are as good (" + list +
-                "); fix one parameter of each direction, or add a term to the objective that "
+                " of the parameters, so that other values are as good, such as " + list +
+                "; fix one parameter of each direction, or add a term to the objective that "
                 "prefers a value",
             "", ""}));
 }
@@ -265,7 +273,27 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
   result->termination = name_of(failure.code);
 }
 
+Scenario scenario_of(const Problem& problem, const ScenarioResult& result) {
+  const std::vector<Parameter>& parameters = study_of(problem).parameters;
+  std::vector<Scenario> known = make_scenarios(problem);
+  Scenario scenario = *std::find_if(known.begin(), known.end(), [&](const Scenario& one) {
+    return one.run == result.run && one.friction_law == result.friction_law;
+  });
+  scenario.sample = result.sample;
+  scenario.weight = result.weight;
+  scenario.values.clear();
+  for (const auto& [name, value] : result.values) {
+    const auto found = std::find_if(parameters.begin(), parameters.end(),
+                                    [&name = name](const Parameter& p) { return p.name == name; });
+    scenario.values.emplace_back(static_cast<int>(found - parameters.begin()), value);
+  }
+  return scenario;
+}
+
 std::string stop_sentence(const OptimizationResult& result) {
+  if (!result.optimality.unjudged.empty())
+    return std::string(result.termination == "stopped_early" ? "stopped early: " : "") +
+           "no slope tells whether this is an optimum: " + result.optimality.unjudged;
   if (!std::isfinite(result.optimality.stationarity)) return "";
   const std::string to = readable(result.optimality.stationarity, 2);
   if (is_success(result.termination)) return "stationary to " + to + describe_confirmation(result);
@@ -317,16 +345,19 @@ Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::Matrix
   return directions;
 }
 
-double valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
-                    const Eigen::MatrixXd& active, const std::vector<bool>& held) {
+ValleyFloor valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                         const Eigen::MatrixXd& active, const std::vector<bool>& held) {
   const auto [moving, svd, flat] = decompose(root, active, held);
+  ValleyFloor floor{value, Eigen::VectorXd::Zero(root.cols())};
   for (Index i = 0; i + flat < to_signed(moving.size()); ++i) {
     double slope = 0.0;
     for (std::size_t k = 0; k < moving.size(); ++k)
       slope += svd.V(to_signed(k), i) * gradient[moving[k]];
-    value -= std::pow(0.5 * slope / svd.values[i], 2);
+    floor.value -= std::pow(0.5 * slope / svd.values[i], 2);
+    for (std::size_t k = 0; k < moving.size(); ++k)
+      floor.step[moving[k]] -= 0.5 * slope / (svd.values[i] * svd.values[i]) * svd.V(to_signed(k), i);
   }
-  return value;
+  return floor;
 }
 
 }  // namespace codesign

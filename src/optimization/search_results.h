@@ -20,6 +20,9 @@ void describe_scenarios(const Problem& problem, const Ensemble& ensemble,
                         const std::atomic<bool>* cancel, ProgressMeter* meter,
                         OptimizationResult* result);
 
+/// The scenario that a result describes; one that was added to the samples of the problem, too.
+Scenario scenario_of(const Problem& problem, const ScenarioResult& result);
+
 /// Warnings about a finished search: `max_evaluations_reached`, `not_stationary`,
 /// `parameter_on_bound`, `parameter_without_influence`, `flat_direction`.
 Warnings search_warnings(const Study& study, const OptimizerOptions& options,
@@ -42,10 +45,14 @@ constexpr double kFlatShare = 1e-8;
 Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::MatrixXd& active,
                                 const std::vector<bool>& held);
 
-/// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held: of a
-/// sum of squares beside a design of a curved valley, its floor there. @param value, gradient,
-/// root: psi, g and R. @param active, held as above.
-double valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
-                    const Eigen::MatrixXd& active, const std::vector<bool>& held);
+/// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held, and
+/// the shortest step to it: of a sum of squares beside a design of a curved valley, its floor there.
+struct ValleyFloor {
+  double value = 0.0;
+  Eigen::VectorXd step;
+};
+/// @param value, gradient, root: psi, g and R. @param active, held as above.
+ValleyFloor valley_floor(double value, const Eigen::VectorXd& gradient, const Eigen::MatrixXd& root,
+                         const Eigen::MatrixXd& active, const std::vector<bool>& held);
 
 }  // namespace codesign

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "description/parameter_switches.h"
 #include "description/study.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
@@ -43,6 +44,7 @@ SearchTrials::SearchTrials(const Study& study, const OptimizerOptions& options,
 void SearchTrials::start(const Eigen::VectorXd& rho) {
   result_.initial.rho = result_.best.rho = rho;
   result_.optimality.influences.assign(study_.tuned.size(), false);
+  slopes_ = changes_ = result_.optimality.influences;
   parameter_rows_.require_numbers_at(rho);
 }
 
@@ -198,8 +200,34 @@ void SearchTrials::judge_stop() {
     if (judged_.range(to_index(k)) != unit[k])
       result_.optimality.bound_multipliers[k] *= unit[k] / judged_.range(to_index(k));
   if (interrupted()) return;
-  if (is_success(result_.termination) && best_keeps_bounds() && !is_stationary())
+  result_.optimality.unjudged = find_unjudged();
+  const bool may_claim = result_.optimality.unjudged.empty() && is_stationary();
+  if (!result_.optimality.unjudged.empty())
+    result_.optimality.stationarity = std::numeric_limits<double>::quiet_NaN();
+  if (is_success(result_.termination) && best_keeps_bounds() && !may_claim)
     result_.termination = "stopped_early";
+}
+
+/// What no slope sees, (24k). A sum of squares that vanishes is least all the same.
+std::string SearchTrials::find_unjudged() const {
+  if (result_.best.objective == 0.0 && is_sum_of_squares(study_)) return "";
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  const std::vector<ParameterJump> jumps = find_jumps(study_, result_.best.rho);
+  const auto jumps_with = [&jumps](int parameter) {
+    return std::any_of(jumps.begin(), jumps.end(), [parameter](const ParameterJump& jump) {
+      return jump.parameter == parameter;
+    });
+  };
+  const auto quoted = [this](int parameter) {
+    return "\"" + study_.parameters[to_index(parameter)].name + "\"";
+  };
+  for (const ParameterJump& jump : jumps)
+    add((jump.parameter < 0 ? "what it tunes" : quoted(jump.parameter)) + " (" + jump.text + ")");
+  for (std::size_t k = 0; k < study_.tuned.size(); ++k)
+    if (changes_[k] && !slopes_[k] && !jumps_with(study_.tuned[k]))
+      add(quoted(study_.tuned[k]) + " (its derivative is zero wherever it was asked for)");
+  return text.empty() ? "" : "the objective jumps with " + text;
 }
 
 Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) {
@@ -237,6 +265,12 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
 void SearchTrials::note_influences(const Eigen::MatrixXd& gradients) {
   for (std::size_t k = 0; k < result_.optimality.influences.size(); ++k)
     if ((gradients.row(to_signed(k)).array() != 0.0).any()) result_.optimality.influences[k] = true;
+  note_slopes(gradients);
+}
+
+void SearchTrials::note_slopes(const Eigen::MatrixXd& gradients) {
+  for (std::size_t k = 0; k < slopes_.size(); ++k)
+    if ((gradients.row(to_signed(k)).array() != 0.0).any()) slopes_[k] = true;
 }
 
 /// The objective of a point that differs from the best one in one parameter may differ where the
@@ -245,8 +279,13 @@ void SearchTrials::note_change(const EnsembleEvaluation& all, const Eigen::Vecto
   if (!have_best_ || all.total.objective == result_.best.objective) return;
   const auto differs = (rho.array() != result_.best.rho.array()).eval();
   if (differs.count() != 1) return;
+  const bool counts = std::abs(all.total.objective - result_.best.objective) >
+                      options_.relative_tolerance * std::abs(result_.best.objective);
   for (std::size_t k = 0; k < result_.optimality.influences.size(); ++k)
-    if (differs[to_signed(k)]) result_.optimality.influences[k] = true;
+    if (differs[to_signed(k)]) {
+      result_.optimality.influences[k] = true;
+      if (counts) changes_[k] = true;
+    }
 }
 
 double SearchTrials::violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const {
@@ -286,6 +325,7 @@ void SearchTrials::take_best(const EnsembleEvaluation& all, const Eigen::VectorX
   best_watched_.reset();
   looked_beside_ = false;
   result_.optimality.flat_directions.resize(0, 0);
+  result_.optimality.flat_points.resize(0, 0);
   result_.best.failed = all.failed;
   result_.best.gradient = evaluation.gradient;
   result_.best.events = evaluation.events;

@@ -81,6 +81,7 @@ class SearchTrials {
  private:
   Trial note(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   void note_influences(const Eigen::MatrixXd& gradients);
+  void note_slopes(const Eigen::MatrixXd& gradients);
   void note_reaches(const Evaluation& evaluation);
   void note_change(const EnsembleEvaluation& all, const Eigen::VectorXd& rho);
   double violation(const EnsembleEvaluation& all, const Eigen::VectorXd& rho) const;
@@ -93,10 +94,21 @@ class SearchTrials {
   /// What lies beside the best point along a direction.
   enum class Beside { kLower, kSame, kChanged };
   struct Side;
-  Beside look_beside(const Eigen::VectorXd& direction, const Side& side);
-  Beside look_at(const Eigen::VectorXd& rho, const Side& side, double share);
+  /// @param share the step in the unit of the parameter that moves most. @param flat if the result
+  /// is kSame and not null: the step that was taken to one side, and the design there.
+  struct Flat {
+    Eigen::VectorXd step, design;
+  };
+  Beside look_beside(const Eigen::VectorXd& direction, const Side& side, double share, Flat* flat);
+  Beside look_at(const Eigen::VectorXd& step, const Side& side, double share, Flat* flat);
+  Beside look_along_valley(Eigen::VectorXd rho, const Side& side, double rise, double limit,
+                           Flat* flat);
   bool has_lower_along_flat();
+  double mean_at(const EnsembleEvaluation& at) const;
+  double same_within(const Eigen::VectorXd& step);
   Eigen::VectorXd extents() const;
+  Eigen::VectorXd sizes();
+  std::string find_unjudged() const;
 
   const Study& study_;
   const OptimizerOptions& options_;
@@ -114,6 +126,10 @@ class SearchTrials {
   std::optional<Optimality> best_optimality_;
   std::optional<std::vector<WatchedResult>> best_watched_;
   std::optional<double> initial_slope_;
+  /// By tuned parameter: whether a derivative was other than zero anywhere, and whether the
+  /// objective has changed with it alone.
+  std::vector<bool> slopes_, changes_;
+  bool differs_beside_ = false;  ///< whether look_at() saw a change that counts
   bool looked_beside_ = false;
   OptimizationResult result_;
   EventChanges event_changes_;

@@ -40,6 +40,21 @@ double least_margin(const Study& study, const ParameterConstraint& constraint) {
   return -kShare * (magnitude > 0.0 ? std::min(1.0, magnitude) : 1.0);
 }
 
+double margin_left(const ParameterConstraint& constraint, const std::vector<double>& parameters) {
+  const double margin = constraint.margin->value(parameters);
+  return constraint.is_equality ? 0.0 - std::abs(margin) : margin;
+}
+
+bool may_begin(const Study& study, const Eigen::VectorXd& margins) {
+  for (std::size_t k = 0; k < study.constraints.size(); ++k) {
+    const ParameterConstraint& constraint = study.constraints[k];
+    const double margin = margins[to_signed(k)];
+    if (constraint.is_equality ? std::isnan(margin) : !(margin >= least_margin(study, constraint)))
+      return false;
+  }
+  return true;
+}
+
 bool all_met(const Study& study, const Eigen::VectorXd& margins) {
   for (std::size_t k = 0; k < study.constraints.size(); ++k)
     if (!(margins[to_signed(k)] >= least_margin(study, study.constraints[k]))) return false;
@@ -68,15 +83,18 @@ void require_numbers_at_start(const Study& study, const std::vector<double>& par
 Warnings unsatisfiable_constraints(const Study& study) {
   const std::vector<ValueRange> ranges = ranges_of(study);
   Warnings warnings;
-  for (const ParameterConstraint& constraint : study.constraints)
-    if (const double most = constraint.margin->range(ranges).upper;
-        most < least_margin(study, constraint))
+  for (const ParameterConstraint& constraint : study.constraints) {
+    const ValueRange range = constraint.margin->range(ranges);
+    const double most =
+        constraint.is_equality ? std::min(range.upper, -range.lower) : range.upper;
+    if (most < least_margin(study, constraint))
       warnings.push_back(
           warn("unsatisfiable_constraint",
                {constraint.where, constraint.element,
                 "no design within the parameters' bounds meets the constraint", constraint.text,
                 "the margin is at most " + to_decimal(most) +
                     "; widen the bounds, or relax the constraint"}));
+  }
   return warnings;
 }
 

@@ -19,6 +19,14 @@ struct Study;
 /// its parameters change it, to first order, over their ranges; doc/theory.md (24f).
 double least_margin(const Study& study, const ParameterConstraint& constraint);
 
+/// What a constraint has left at all named parameters, negative where it is violated: its margin,
+/// of an equality minus the magnitude of it; NaN where it has no real value.
+double margin_left(const ParameterConstraint& constraint, const std::vector<double>& parameters);
+
+/// Whether a point may begin a search by its margins: those of equalities do not count, which no
+/// point has that was drawn.
+bool may_begin(const Study& study, const Eigen::VectorXd& margins);
+
 /// Whether every margin is at least least_margin(); a margin that is NaN is not. @param margins
 /// order of Study::constraints.
 bool all_met(const Study& study, const Eigen::VectorXd& margins);

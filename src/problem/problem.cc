@@ -226,6 +226,7 @@ Problem load_mechanism_at(const SavedDesign& design, const SourceText& urdf,
   Study study;
   study.parameters = robot.parameters;
   study.used_parameters = robot.used_parameters;
+  study.switches = robot.switches;
   study.file = urdf.name;
   return compile(robot, std::move(study), design, settings,
                  {urdf, overlays, {}, nullptr, {}, timer.seconds(), robot.warnings, {}, {}});

@@ -6,9 +6,12 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "description/expression.h"
+#include "description/parameter_switches.h"
+#include "math/arrays.h"
 #include "mechanism_codesign/parameter.h"
 
 namespace codesign {
@@ -40,11 +43,32 @@ struct ParameterTable {
     };
     return parse(text, {find, [this] { return names; }});
   }
+  /// The switches of an expression that parse() or parse_with_time() has returned. @param times at
+  /// which it is looked at [s].
+  std::vector<ParameterSwitch> switches_of(const std::shared_ptr<const Expression>& expression,
+                                           const std::vector<double>& times,
+                                           bool at_instant = false) const {
+    const auto variable = [&](int k) -> ExpressionVariable {
+      const int index = expression->dependencies()[to_index(k)];
+      if (index == time_index()) return {VariableKind::kTime, -1};
+      return {VariableKind::kParameter, index};
+    };
+    std::vector<ParameterSwitch> found =
+        find_switches(expression->steps(), expression->text(), variable, at_instant);
+    for (ParameterSwitch& one : found)
+      for (const double time : times)
+        one.values.emplace_back([expression, time](std::vector<double> values) {
+          values.push_back(time);
+          return expression->value(values);
+        });
+    return found;
+  }
   int time_index() const { return static_cast<int>(names.size()); }
 
   std::vector<std::string> names;
   std::vector<double> values;
   std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
+  mutable std::vector<ParameterSwitch> switches;  ///< of the parsed expressions
   mutable std::set<int> used;  ///< indices of the parameters on which a parsed expression depends
 
  private:
@@ -59,6 +83,7 @@ struct ParameterTable {
     auto expression = std::make_shared<const Expression>(text, scope);
     for (const int k : expression->dependencies())
       if (k != time_index()) used.insert(k);
+    for (ParameterSwitch& one : switches_of(expression, {0.37})) switches.push_back(std::move(one));
     return expression;
   }
 };

@@ -159,8 +159,8 @@ JointSamples& samples_of(const std::string& joint, std::vector<JointSamples>* jo
 
 }  // namespace
 
-NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter)
-    : file_(std::move(file)), text_(std::move(text)) {
+NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter, bool has_key)
+    : file_(std::move(file)), text_(std::move(text)), has_key_(has_key) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
     text_.erase(0, kByteOrderMark.size());
@@ -225,7 +225,10 @@ void NumberTable::for_each_row(const Visit& visit) const {
       fail(number, "",
            "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
                std::to_string(width_),
-           "", "rows of equal length; `delimiter` gives the separator of the cells");
+           "",
+           std::string("rows of equal length") +
+               (has_key_ ? "; `delimiter` gives the separator of the cells"
+                         : ", whose cells are separated by what the first row has"));
     visit(cells, number);
   }
 }

@@ -19,8 +19,9 @@ namespace codesign {
 /// has the names, as numpy writes them. Names may be quoted.
 class NumberTable {
  public:
-  /// @param file for messages. @throws InputError if there is no row.
-  NumberTable(std::string file, std::string text, CellDelimiter delimiter);
+  /// @param file for messages. @param has_key whether a key `delimiter` of the study chooses the
+  /// separator, for messages. @throws InputError if there is no row.
+  NumberTable(std::string file, std::string text, CellDelimiter delimiter, bool has_key = true);
 
   /// Names of the columns; empty if the table has none.
   const std::vector<std::string>& names() const { return names_; }
@@ -54,6 +55,7 @@ class NumberTable {
                          std::string_view value, const std::string& allowed) const;
 
   std::string file_, text_;
+  bool has_key_;
   char delimiter_ = ',';  ///< a blank stands for any white space
   std::vector<std::string> names_;
   int width_ = 0;

@@ -48,13 +48,10 @@ double normal_quantile(const Distribution& d, double u) {
   return std::clamp(d.mean + d.deviation * x, d.lower, d.upper);
 }
 
-}  // namespace
-
-std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities,
-                                      SamplerKind sampler, int count, std::uint32_t seed) {
-  const Eigen::MatrixXd points =
-      unit_points(sampler, count, static_cast<int>(quantities.size()), seed);
-  std::vector<std::vector<double>> samples(to_index(count));
+/// One sample per row of points of the unit cube.
+std::vector<std::vector<double>> samples_at(const std::vector<UncertainQuantity>& quantities,
+                                            const Eigen::MatrixXd& points) {
+  std::vector<std::vector<double>> samples(to_index(points.rows()));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].reserve(quantities.size());
     for (std::size_t j = 0; j < quantities.size(); ++j) {
@@ -63,6 +60,45 @@ std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quan
     }
   }
   return samples;
+}
+
+/// The points of a quantity that corners have.
+std::vector<double> places(const Distribution& distribution) {
+  constexpr double kEnd = 0x1p-33;
+  if (distribution.kind == DistributionKind::kUniform) return {kEnd, 1.0 - kEnd};
+  if (distribution.kind == DistributionKind::kNormal) return {0.5};
+  std::vector<double> middles;
+  const auto count = static_cast<double>(distribution.choices.size());
+  for (double k = 0.5; k < count; ++k) middles.push_back(k / count);
+  return middles;
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> corners(const std::vector<UncertainQuantity>& quantities) {
+  std::size_t count = 1;
+  bool has_interval = false;
+  for (const UncertainQuantity& quantity : quantities) {
+    has_interval |= quantity.distribution.kind == DistributionKind::kUniform;
+    count *= places(quantity.distribution).size();
+    if (count > kMostCorners) return {};
+  }
+  if (!has_interval) return {};
+  Eigen::MatrixXd points(to_signed(count), to_signed(quantities.size()));
+  std::size_t repeated = 1;
+  for (std::size_t j = 0; j < quantities.size(); ++j) {
+    const std::vector<double> at = places(quantities[j].distribution);
+    for (std::size_t i = 0; i < count; ++i)
+      points(to_signed(i), to_signed(j)) = at[i / repeated % at.size()];
+    repeated *= at.size();
+  }
+  return samples_at(quantities, points);
+}
+
+std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities,
+                                      SamplerKind sampler, int count, std::uint32_t seed) {
+  return samples_at(quantities,
+                    unit_points(sampler, count, static_cast<int>(quantities.size()), seed));
 }
 
 double quantile(const Distribution& distribution, double u) {

@@ -17,6 +17,13 @@ namespace codesign {
 std::vector<std::vector<double>> draw(const std::vector<UncertainQuantity>& quantities,
                                       SamplerKind sampler, int count, std::uint32_t seed);
 
+/// Samples at the corners of what is uncertain: of all combinations of both ends of the uniform
+/// quantities and of all choices one sample, in which normal ones have their mean; none without a
+/// uniform quantity, and none if they were more than kMostCorners. Ends lie 2^-33 of an interval
+/// inside it, as the points of a sampler do.
+std::vector<std::vector<double>> corners(const std::vector<UncertainQuantity>& quantities);
+constexpr std::size_t kMostCorners = 64;
+
 /// The value below which a number of this distribution lies with probability u; doc/theory.md
 /// (24b).
 ///

@@ -52,7 +52,8 @@ Status AdjointGradient::advance(double limit) {
 }
 
 double AdjointGradient::objective() {
-  return integrator_.psi() + integrator_.equations().terminal(integrator_.state());
+  return integrator_.of_squares(integrator_.psi(),
+                                integrator_.equations().terminal(integrator_.state()));
 }
 
 // The backward pass begins with the gradient of the terminal terms as the adjoint of the last

@@ -275,7 +275,8 @@ const State<double>& IdasGradient::consistent_state() {
 }
 
 double IdasGradient::objective() {
-  return integrator_.psi() + integrator_.equations().terminal(consistent_state());
+  return integrator_.of_squares(integrator_.psi(),
+                                integrator_.equations().terminal(consistent_state()));
 }
 
 void IdasGradient::take_directions() {

@@ -179,7 +179,8 @@ Status RosenbrockGradient::advance(double limit) {
 }
 
 double RosenbrockGradient::objective() {
-  return integrator_.psi() + integrator_.equations().terminal(integrator_.state());
+  return integrator_.of_squares(integrator_.psi(),
+                                integrator_.equations().terminal(integrator_.state()));
 }
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {

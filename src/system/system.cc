@@ -316,7 +316,8 @@ void System::refuse_unsupported() const {
     throw InputError({robot_.links[to_index(robot_.root)].where,
                       "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint", "",
-                      "at least one link with <inertial> below a joint that is not fixed"});
+                      "at least one link with <inertial> below a joint that is not fixed; <inertial "
+                      "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes"});
 }
 
 }  // namespace codesign

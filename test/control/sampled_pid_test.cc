@@ -75,7 +75,7 @@ TEST(SampledPid, DoesWhatControlToolboxDoes) {
       SampledPidMemory<double> memory;
       bool is_first = true;
       for (const double e : kErrors) {
-        EXPECT_NEAR(sample_pid(numbers, e, is_first, &memory), toolbox.command(e, 0.1), 1e-14);
+        EXPECT_NEAR(sample_pid(numbers, e, e, is_first, &memory), toolbox.command(e, 0.1), 1e-14);
         EXPECT_NEAR(memory.integral, toolbox.i_error, 1e-15);
         is_first = false;
       }
@@ -87,9 +87,19 @@ TEST(SampledPid, FiltersTheRateByTheBackwardDifference) {
   // falls by 3/4 per sample.
   const SampledPidNumbers<double> numbers{{0.0, 0.0, 1.0}, 0.1, 0.3, nullptr, false};
   SampledPidMemory<double> memory;
-  EXPECT_EQ(sample_pid(numbers, 5.0, true, &memory), 0.0) << "no kick at the start";
-  EXPECT_DOUBLE_EQ(sample_pid(numbers, 6.0, false, &memory), 2.5);
-  EXPECT_DOUBLE_EQ(sample_pid(numbers, 6.0, false, &memory), 1.875);
+  EXPECT_EQ(sample_pid(numbers, 5.0, 5.0, true, &memory), 0.0) << "no kick at the start";
+  EXPECT_DOUBLE_EQ(sample_pid(numbers, 6.0, 6.0, false, &memory), 2.5);
+  EXPECT_DOUBLE_EQ(sample_pid(numbers, 6.0, 6.0, false, &memory), 1.875);
+}
+
+// The set-point steps by 1 while the input rests at 2: the rate of the input is zero.
+TEST(SampledPid, TheRateOfTheInputDoesNotSeeTheSetPoint) {
+  const SampledPidNumbers<double> numbers{{3.0, 0.0, 1.0}, 0.1, 0.0, nullptr, false};
+  SampledPidMemory<double> of_error, of_input;
+  EXPECT_EQ(sample_pid(numbers, -2.0, -2.0, true, &of_error), -6.0);
+  EXPECT_EQ(sample_pid(numbers, -2.0, -2.0, true, &of_input), -6.0);
+  EXPECT_DOUBLE_EQ(sample_pid(numbers, -1.0, -1.0, false, &of_error), -3.0 + 1.0 / 0.1);
+  EXPECT_DOUBLE_EQ(sample_pid(numbers, -1.0, -2.0, false, &of_input), -3.0);
 }
 
 TEST(SampledPid, IsDifferentiableByGainsAndBounds) {
@@ -100,7 +110,7 @@ TEST(SampledPid, IsDifferentiableByGainsAndBounds) {
   const C bound(0.2, kTiny);
   const SampledPidNumbers<C> numbers{{C(2.0), C(4.0), C(0.0)}, 0.1, C(0.0), &bound, true};
   SampledPidMemory<C> memory;
-  EXPECT_EQ(sample_pid(numbers, C(1.0), true, &memory).imag(), kTiny);
+  EXPECT_EQ(sample_pid(numbers, C(1.0), C(1.0), true, &memory).imag(), kTiny);
   EXPECT_EQ(memory.integral.imag(), 0.25 * kTiny);
 }
 

@@ -21,6 +21,16 @@ TEST(ParameterConstraint, MarginIsWhatIsLeftBeforeTheLimit) {
   EXPECT_DOUBLE_EQ(margin("0.1 >= crank_length - 0.02", 0.08, 0.3), 0.1 - 0.06);
 }
 
+TEST(ParameterConstraint, MayBeAnEquality) {
+  const auto parse = [](const char* text) {
+    return parse_constraint(text, kLengths, {"study.yaml", 4}, "constraints[0]");
+  };
+  EXPECT_TRUE(parse("rod_length == 3*crank_length").is_equality);
+  EXPECT_FALSE(parse("rod_length >= 3*crank_length").is_equality);
+  EXPECT_FALSE(parse("(crank_length == 0.05 ? rod_length : 0) <= 0.25").is_equality);
+  EXPECT_DOUBLE_EQ(margin("rod_length == 3*crank_length", 0.08, 0.3), 0.24 - 0.3);
+}
+
 TEST(ParameterConstraint, KeepsItsText) {
   EXPECT_EQ(parse_constraint("rod_length >= 0.1", kLengths, {"s", 1}, "constraints[0]").text,
             "rod_length >= 0.1");
@@ -57,6 +67,8 @@ TEST(ParameterConstraint, RefusesWhatIsNone) {
   expect_bad_constraint("rod_length - crank_length", "exactly one");
   expect_bad_constraint("rod_length > crank_length", "exactly one");
   expect_bad_constraint("0.1 <= rod_length <= 0.2", "exactly one");
+  expect_bad_constraint("0.1 == rod_length == crank_length", "exactly one");
+  expect_bad_constraint("rod_length = 0.2", "exactly one");
   expect_bad_constraint("rod_lenght >= 0.2", "rod_length");
   expect_bad_constraint("rod_length >= ", "");
   expect_bad_constraint("(rod_length) - ( >= 0.2)", "");

@@ -38,6 +38,9 @@ std::string pid(const std::string& keys, const std::string& input = "shoulder/po
 TEST(ControllerStates, HaveExactDerivatives) {
   const std::string terms = "{signal: a/output + shoulder/effort}";
   expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02"), terms);
+  for (const char* keys : {"", ", derivative_filter: 0.02", ", sample_time: 0.01"})
+    expect_exact_rates(
+        pid("gains: {p: 3.0, d: 0.5}, derivative: measurement" + std::string(keys)), terms);
   expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3"), terms);
   for (const char* sign : {"", "-"})
     expect_exact_rates(
@@ -62,6 +65,9 @@ TEST(EffortRate, HasExactDerivatives) {
   expect_exact_rates(pid("gains: {p: 3.0, i: 2.0, d: 0.5}"), terms);
   expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02", "shoulder/velocity"),
                      terms);
+  for (const char* keys : {"", ", derivative_filter: 0.02"})
+    expect_exact_rates(
+        pid("gains: {p: 3.0, i: 2.0, d: 0.5}, derivative: measurement" + std::string(keys)), terms);
   for (const char* limit : {"40.0", "0.01"})
     expect_exact_rates(
         pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3, output_limit: " + std::string(limit)), terms);

@@ -9,7 +9,9 @@
 #include "description/study.h"
 #include "edited_text.h"
 #include "ensemble/ensemble_fixture.h"
+#include "ensemble/other_steps.h"
 #include "integration/mechanisms.h"
+#include "mechanism_codesign/optimization.h"
 #include "paths.h"
 #include "problem/load_problem.h"
 
@@ -118,16 +120,39 @@ TEST(Ensemble, GradientsOfAllMeasuresAgreeWithTheComplexStep) {
   }
 }
 
+// The best Kp makes the gradient what the tolerances leave: finer steps change it by its own size.
+TEST(Ensemble, AGradientThatIsRoundingIsNotCoarse) {
+  for (const char* tolerances :
+       {"relative_tolerance: 1.0e-5, absolute_tolerance: 1.0e-6", "relative_tolerance: 1.0e-8"}) {
+    const Problem found = block(std::string("solver: {") + tolerances + "}\n",
+                                "{algorithm: slsqp, relative_tolerance: 1.0e-14}");
+    const OptimizationResult best = optimize(found);
+    const Ensemble ensemble(found);
+    for (const bool along : {false, true}) {
+      GradientCheck check =
+          along ? check_along(ensemble, best.best.rho, CheckMethod::kComplexStep)
+                : check_gradient(ensemble, best.best.rho, CheckMethod::kComplexStep);
+      check_other_steps(ensemble, best.best.rho, nullptr, &check);
+      check_steps(ensemble, best.best.rho, nullptr, &check);
+      ASSERT_TRUE(check.status.ok()) << check.status.cause;
+      for (const Warning& warning : check.evaluation.warnings)
+        EXPECT_NE(warning.code, "coarse_gradient") << tolerances << " " << warning.message;
+    }
+  }
+}
+
 // A replay of the same steps does not see that they are too long where friction reverses.
 TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
   const std::string loop = source_dir() + "/test/features/planar_loop";
-  const auto check_at = [&loop](const std::string& solver, CheckMethod method, int directions) {
+  const auto check_at = [&loop](const std::string& solver, CheckMethod method, int directions,
+                                bool with_differences = false) {
     SourceText study = read_source(loop + ".yaml");
     study.text += "solver: {" + solver + "}\n";
     const Problem problem = load_problem(read_source(loop + ".urdf"), {}, study);
     const Ensemble ensemble(problem);
     GradientCheck check = directions > 0 ? check_along(ensemble, problem.start(), method)
                                          : check_gradient(ensemble, problem.start(), method);
+    if (with_differences) check_other_steps(ensemble, problem.start(), nullptr, &check);
     check_steps(ensemble, problem.start(), nullptr, &check);
     EXPECT_TRUE(check.status.ok()) << check.status.cause;
     return check;
@@ -144,6 +169,7 @@ TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
     EXPECT_LT(coarse.largest_relative_difference, 1e-8);
     EXPECT_GT(coarse.largest_change, 0.01);
     EXPECT_TRUE(warns(coarse));
+    EXPECT_TRUE(warns(check_at(loose, CheckMethod::kComplexStep, directions, true)));
     EXPECT_LT(fine.largest_change, 1e-4);
     EXPECT_FALSE(warns(fine));
     EXPECT_EQ(fine.finer.size(), fine.reference.size());

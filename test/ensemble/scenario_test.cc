@@ -55,6 +55,18 @@ TEST(Scenario, OneSampleIsTheNominalOne) {
   EXPECT_EQ(scenarios[0].parameters(problem.start()), problem.parameters());
 }
 
+TEST(Scenario, TheWorstCaseHasTheCornersAsSamples) {
+  const std::string uncertain =
+      "uncertain: {mu: {uniform: [0.2, 0.4]}, mass: {uniform: [1, 3]}}\nrobust: {samples: 4";
+  EXPECT_EQ(make_scenarios(block(uncertain + "}\n")).size(), 4u);
+  const std::vector<Scenario> worst = make_scenarios(block(uncertain + ", measure: worst}\n"));
+  ASSERT_EQ(worst.size(), 8u);
+  EXPECT_NEAR(worst[7].values[0].second, 0.4, 1e-10);
+  EXPECT_NEAR(worst[7].values[1].second, 3.0, 1e-9);
+  EXPECT_EQ(worst[7].sample, 7);
+  EXPECT_DOUBLE_EQ(worst[0].weight, 0.125);
+}
+
 TEST(Scenario, AFrictionLawIsASystemOfItsOwn) {
   const Problem problem = block(
       "uncertain: {friction_law: {choice: [brown_mcphee, gonthier]}}\nrobust: {samples: 16}\n");

@@ -38,6 +38,25 @@ TEST(Integrator, BothBeginAtTheAssembledStart) {
   EXPECT_EQ(start[0].z, start[1].z);
 }
 
+// The weights of a method may be negative, so that the integral of squares may be so by its error.
+TEST(Integrator, ASumOfSquaresIsNotNegative) {
+  for (const char* solver : {"{integrator: rosenbrock}", "{integrator: idas}"}) {
+    const auto squares = servo(solver);
+    const auto integrator = make_integrator(*squares);
+    ASSERT_TRUE(integrator->start(squares->parameters()).ok());
+    EXPECT_EQ(integrator->of_squares(-8e-13), 0.0) << solver;
+    EXPECT_EQ(integrator->of_squares(-8e-13, 1e-12), 1e-12 - 8e-13);
+    EXPECT_EQ(integrator->of_squares(3.0, 2.0), 5.0);
+    EXPECT_TRUE(std::isnan(integrator->of_squares(std::nan(""))));
+  }
+  const auto signed_terms = compile(
+      robot(mass("block", 2.0) + lift("slide", "block", 0.0)),
+      "duration: 1.0\nobjective: {integral: [{signal: slide/position, weight: -1.0}]}\n");
+  const auto integrator = make_integrator(*signed_terms);
+  ASSERT_TRUE(integrator->start(signed_terms->parameters()).ok());
+  EXPECT_EQ(integrator->of_squares(-8e-13), -8e-13);
+}
+
 struct Calls {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   RepeatableStart start;

@@ -168,6 +168,46 @@ TEST(SampledControl, RoundsWhatItMeasures) {
   EXPECT_GT(changes, 5);
 }
 
+/// The largest output of a PD on a cart at rest whose set-point steps from 0 to 1.
+double largest_output(const std::string& keys, const std::string& integrator) {
+  const std::string urdf = robot(
+      "<link name='cart'><inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' "
+      "ixz='0' iyz='0'/></inertial></link>"
+      "<joint name='slide' type='prismatic'><parent link='ground'/><child link='cart'/><axis "
+      "xyz='1 0 0'/><limit effort='1' velocity='1'/></joint>");
+  const auto system =
+      compile(urdf,
+              "duration: 0.3\ngravity: [0.0, 0.0, 0.0]\ncontrollers: {pd: {type: pid, input: "
+              "slide/position, setpoint: \"${t < 0.095 ? 0 : 1}\", output: slide, gains: {p: 2.0, "
+              "d: 1.0}" +
+                  keys + "}}\nsolver: {integrator: " + integrator + "}\n");
+  Simulation simulation = simulation_of(system, {}, {parse_signal("pd/output", {}, "signal")});
+  double largest = 0.0;
+  const Status status = simulate(&simulation, 0.3, 3001, [&](const Frame& frame) {
+    largest = std::max(largest, frame.signals[0]);
+    return true;
+  });
+  EXPECT_TRUE(status.ok()) << status.cause;
+  return largest;
+}
+
+// d of the error is 1/T for one sample, and 1/tau behind a filter; the impulse that it would be
+// without both is left out.
+TEST(SampledControl, ASetpointKicksTheDerivativeOfTheErrorAlone) {
+  const std::string measured = ", derivative: measurement", sampled = ", sample_time: 0.01",
+                    filtered = ", derivative_filter: 0.02";
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    SCOPED_TRACE(integrator);
+    if (std::string(integrator) == "rosenbrock")
+      EXPECT_NEAR(largest_output("", integrator), 2.0, 1e-3);
+    EXPECT_NEAR(largest_output(sampled, integrator), 2.0 + 1.0 / 0.01, 1e-3);
+    EXPECT_NEAR(largest_output(sampled + measured, integrator), 2.0, 1e-3);
+  }
+  EXPECT_NEAR(largest_output(measured, "rosenbrock"), 2.0, 1e-3);
+  EXPECT_NEAR(largest_output(filtered, "rosenbrock"), 2.0 + 1.0 / 0.02, 0.5);
+  EXPECT_NEAR(largest_output(filtered + measured, "rosenbrock"), 2.0, 1e-3);
+}
+
 TEST(SampledControl, GoesOnBeyondTheDuration) {
   const auto system = cart(pd(900.0, 40.0), "", "rosenbrock", 0.05);
   Simulation simulation = simulation_of(system, {}, {parse_signal("slide/position", {}, "signal")});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "description/study.h"
 #include "mechanism_codesign/optimization.h"
@@ -137,6 +138,87 @@ TEST(FalseOptima, AFarOptimumIsFoundOrItsStopIsNoSuccess) {
         result.termination == "stopped_early" || result.termination == "max_evaluations_reached")
         << algorithm << " " << result.termination;
   }
+}
+
+// Zero as a start tells nothing of sizes: at the start the second residual is 2e6 times as steep.
+TEST(FalseOptima, StartsOfZeroHaveNoSize) {
+  for (const char* algorithm : {"auto", "slsqp", "lbfgs", "bobyqa", "cobyla", "mma"})
+    for (const auto& [large, small] : {std::pair(1e9, 1e-6), std::pair(1e6, 1e-9),
+                                       std::pair(1e11, 1e-3)}) {
+      const OptimizationResult result = tune(
+          parameter("a", 0.0, "") + parameter("b", 0.0, ""),
+          squares({"a/" + std::to_string(large) + "-2.3", "b*" + std::to_string(1.0 / small) + "-2"},
+                  std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
+      EXPECT_TRUE(result.best.objective < 1e-3 || !(result.optimality.stationarity <= 1e-3))
+          << algorithm << " " << large << ": stationary to " << result.optimality.stationarity
+          << " at " << result.best.objective;
+      EXPECT_TRUE(result.best.objective < 1e-3 || result.termination == "stopped_early" ||
+                  result.termination == "max_evaluations_reached")
+          << algorithm << " " << large << " " << result.termination;
+    }
+}
+
+// R has entries of 1e5 and 13, whose squares differ by less than 1e-8: no flat direction.
+TEST(FalseOptima, ASoftDirectionBesideAStiffOneIsNotFlat) {
+  for (const char* algorithm : {"auto", "slsqp"}) {
+    const OptimizationResult result =
+        tune(a_and_b(3.0, -1.0),
+             squares({"1e6*(a+b-1.5)", "a-1"}, std::string("optimizer: {max_evaluations: 1000, "
+                                                           "relative_tolerance: 1e-12, algorithm: ") +
+                                                   algorithm + "}\n"));
+    EXPECT_EQ(result.optimality.flat_directions.cols(), 0) << algorithm;
+  }
+}
+
+// What is printed are designs that are as good.
+TEST(FalseOptima, ThePointsOfAFlatDirectionAreAsGood) {
+  for (const char* residual : {"a*b-1", "a-b*b-1", "exp(a)*b-2", "a+b-1"}) {
+    const OptimizationResult result = tune(a_and_b(1.7, 1.2), squares({residual}));
+    ASSERT_EQ(result.optimality.flat_points.cols(), 1) << residual;
+    const double a = result.optimality.flat_points(0, 0), b = result.optimality.flat_points(1, 0);
+    const double left = residual == std::string("a*b-1")      ? a * b - 1.0
+                        : residual == std::string("a-b*b-1")  ? a - b * b - 1.0
+                        : residual == std::string("exp(a)*b-2") ? std::exp(a) * b - 2.0
+                                                                : a + b - 1.0;
+    EXPECT_LT(left * left, 1e-6) << residual;
+    EXPECT_GT((result.optimality.flat_points.col(0) - result.best.rho).norm(), 0.01) << residual;
+    EXPECT_TRUE(has_warning(result, "flat_direction", "such as a ")) << residual;
+  }
+}
+
+// A staircase has the slope zero wherever a search stops on it.
+TEST(FalseOptima, AStaircaseIsNotCalledStationary) {
+  const std::vector<std::string> stairs{
+      "floor(a)-7",          "ceil(a)-7",
+      "sign(a-6.5)-2",       "floor(a+0.5)-7",
+      "(a > 6.5 ? 1 : 3)-1.5", "(a < 2 ? 5 : (a < 7 ? 3 : 1))",
+      "0.01*a+floor(a)-7",   "(a > 6.5 and a < 8 ? 0 : 2) + 0.001*a"};
+  for (const std::string& stair : stairs)
+    for (const char* algorithm : {"auto", "slsqp", "lbfgs", "bobyqa", "cobyla"}) {
+      const OptimizationResult result = tune(
+          a_and_b(3.2, -1.0),
+          squares({stair, "b-2"}, std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
+      if (result.best.objective == 0.0) continue;
+      EXPECT_TRUE(std::isnan(result.optimality.stationarity)) << stair << " " << algorithm;
+      EXPECT_EQ(result.termination, "stopped_early") << stair << " " << algorithm;
+      EXPECT_TRUE(has_warning(result, "objective_jumps", "\"a\"")) << stair << " " << algorithm;
+      EXPECT_EQ(stop_sentence(result).find("stationary"), std::string::npos)
+          << stop_sentence(result);
+    }
+}
+
+TEST(FalseOptima, KinksAndBranchesThatMeetAreNoStaircase) {
+  for (const char* smooth : {"abs(a)-0.5", "max(a, 0.2)-0.5", "(a > 0 ? a : 2*a)-0.5", "min(a,4)-1",
+                             "(a > 20 ? 1 : 0)+a-0.5"}) {
+    const OptimizationResult result = tune(a_and_b(3.2, -1.0), squares({smooth, "b-2"}));
+    EXPECT_TRUE(result.optimality.unjudged.empty()) << smooth << result.optimality.unjudged;
+    EXPECT_NE(result.termination, "stopped_early") << smooth;
+  }
+  EXPECT_TRUE(tune(a_and_b(3.2, -1.0),
+                   "parameters: {b: {}}\nobjective: {terminal: [{signal: \"${floor(a) + b - 2 + "
+                   "0*slide/position}\"}]}\n")
+                  .optimality.unjudged.empty())
+      << "a is not tuned";
 }
 
 TEST(FalseOptima, AnUnboundedObjectiveIsTold) {

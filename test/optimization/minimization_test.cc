@@ -60,5 +60,51 @@ TEST(Minimization, TwoEqualitiesAreReached) {
   }
 }
 
+/// a^2 + 2 b^2 from (0.5, 3) by a mechanism that rests.
+OptimizationResult nearest(const std::string& constraints, const std::string& more) {
+  const std::string wheel = kFlywheel;
+  const std::string study =
+      "duration: 0.01\nparameters: {a: {initial: 0.5, lower: -10, upper: 10}, b: {initial: 3, "
+      "lower: -10, upper: 10}}\nobjective:\n  terminal:\n"
+      "    - {signal: \"${a + 0*shaft/position}\"}\n"
+      "    - {signal: \"${b + 0*shaft/position}\", weight: 2}\nconstraints: [" +
+      constraints + "]\n" + more;
+  return optimize(load_problem({"flywheel.urdf", wheel}, {}, {"study.yaml", study}));
+}
+
+// On a + b = 3 the multiplier is 2 a = 4 b.
+TEST(Minimization, AnEqualityAmongParametersIsKept) {
+  for (const char* text : {"\"a + b == 3\"", "\"3 == a + b\"",
+                           "{expression: \"${a + b}\", between: [3, 3]}"})
+    for (const char* algorithm : {"auto", "slsqp", "cobyla", "auglag_lbfgs"}) {
+      const OptimizationResult result =
+          nearest(text, std::string("optimizer: {max_evaluations: 1000, algorithm: ") + algorithm +
+                            "}\n");
+      ASSERT_TRUE(result.status.ok()) << text << algorithm << ": " << result.status.cause;
+      EXPECT_NEAR(result.best.rho[0], 2.0, 2e-3) << text << algorithm;
+      EXPECT_NEAR(result.best.rho[0] + result.best.rho[1], 3.0, 1e-7) << text << algorithm;
+      ASSERT_EQ(result.constraints.margins.size(), 1);
+      EXPECT_NEAR(result.constraints.margins[0], 0.0, 1e-7);
+      EXPECT_LE(result.optimality.flat_directions.cols(), 0);
+    }
+  const OptimizationResult curved = nearest("\"a*b == 4\", \"b >= 1.9\"", "");
+  ASSERT_TRUE(curved.status.ok()) << curved.status.cause;
+  EXPECT_NEAR(curved.best.rho[1], 1.9, 1e-6) << "without the bound b^4 = 8";
+  EXPECT_NEAR(curved.best.rho.prod(), 4.0, 1e-6);
+  const OptimizationResult starts =
+      nearest("\"a + b == 3\"", "multistart: {starts: 2, screen: 8}\n");
+  ASSERT_TRUE(starts.status.ok()) << starts.status.cause;
+  EXPECT_NEAR(starts.best.rho[0], 2.0, 1e-4);
+  EXPECT_EQ(nearest("\"a + b == 3\", \"a + b == 4\"", "").status.code, StatusCode::kInfeasible);
+}
+
+TEST(Minimization, AlgorithmsWithoutEqualitiesSaySo) {
+  for (const char* algorithm : {"mma", "ccsaq"})
+    EXPECT_THROW(nearest("\"a + b == 3\"", std::string("optimizer: {algorithm: ") + algorithm +
+                                               "}\n"),
+                 InputError)
+        << algorithm;
+}
+
 }  // namespace
 }  // namespace codesign

@@ -42,6 +42,22 @@ TEST(Scaling, WithoutBothBoundsTheStartIsTheMeasure) {
   EXPECT_EQ(scaling.range(2), 1.0) << "a start of zero measures nothing";
 }
 
+// A start of zero has no size, so that value and slope tell it; a start far from zero has one.
+TEST(Scaling, AReachBeginsAtTheSizeThatIsKnown) {
+  const Study s = study();
+  Scaling scaling(s);
+  EXPECT_TRUE(scaling.reach(2, 0.0, 1e9));
+  EXPECT_EQ(scaling.range(2), 1e9);
+  EXPECT_TRUE(scaling.reach(2, 2e-6, 1e-7));
+  EXPECT_EQ(scaling.range(2), 2e-6);
+  EXPECT_TRUE(scaling.reach(2, 0.0, 0.0));
+  EXPECT_EQ(scaling.range(2), 1.0) << "nothing is known";
+  EXPECT_FALSE(scaling.reach(0, 123.0, 1e-7));
+  EXPECT_EQ(scaling.range(0), 500.0);
+  EXPECT_TRUE(scaling.reach(0, 123.0, 1e20));
+  EXPECT_EQ(scaling.range(0), 500.0 * 1e10) << "slopes that are rounding";
+}
+
 TEST(Scaling, BackIsTheInverseAndNeverLeavesTheBounds) {
   const Study s = study();
   const Scaling scaling(s);

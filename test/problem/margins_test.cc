@@ -44,6 +44,32 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsDoubted) {
   EXPECT_TRUE(warnings_of("\"sqrt(Kp - 1) >= 15\"").empty()) << "of Kp = 0 there is no root";
 }
 
+TEST(Margins, AnEqualityIsMetOnBothSides) {
+  const Problem problem =
+      block("constraints: [\"Kp == 20\", {expression: \"${Kd}\", between: [4, 4]}, \"Kp <= 30\"]\n");
+  const Study& study = study_of(problem);
+  ASSERT_EQ(study.constraints.size(), 3U);
+  const auto left = [&](std::size_t k, double Kp, double Kd) {
+    std::vector<double> parameters;
+    for (const Parameter& parameter : study.parameters)
+      parameters.push_back(parameter.name == "Kp"   ? Kp
+                           : parameter.name == "Kd" ? Kd
+                                                    : parameter.value);
+    return margin_left(study.constraints[k], parameters);
+  };
+  EXPECT_EQ(left(0, 23.0, 4.0), -3.0);
+  EXPECT_EQ(left(0, 18.0, 4.0), -2.0);
+  EXPECT_EQ(left(1, 20.0, 5.0), -1.0);
+  EXPECT_EQ(left(2, 20.0, 5.0), 10.0);
+  EXPECT_FALSE(all_met(study, Eigen::Vector3d(-3.0, 0.0, 10.0)));
+  EXPECT_TRUE(all_met(study, Eigen::Vector3d(-1e-9, 0.0, 10.0)));
+  EXPECT_TRUE(may_begin(study, Eigen::Vector3d(-3.0, -1.0, 10.0)));
+  EXPECT_FALSE(may_begin(study, Eigen::Vector3d(-3.0, -1.0, -10.0)));
+  expect_warning("\"Kp + Kd == 251\"");
+  expect_warning("\"Kp + Kd == -1\"");
+  EXPECT_TRUE(warnings_of("\"Kp + Kd == 250\"").empty());
+}
+
 TEST(Margins, WhatCountsAsMetFollowsFromTheMagnitude) {
   const Problem problem =
       block("constraints: [\"Kp <= 30\", \"1e-9*Kp <= 1e-8*Kd\", \"0*Kp >= 0\"]\n");

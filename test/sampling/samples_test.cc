@@ -34,6 +34,24 @@ TEST(Samples, AreQuantilesOfUnitPoints) {
   }
 }
 
+TEST(Samples, AtCornersHaveBothEndsAndAllChoices) {
+  const auto at = corners(quantities());
+  ASSERT_EQ(at.size(), 8u);
+  int ends[2] = {0, 0};
+  std::vector<int> chosen(4, 0);
+  for (const auto& sample : at) {
+    ++ends[sample[0] < 0.3 ? 0 : 1];
+    EXPECT_NEAR(std::abs(sample[0] - 0.3), 0.1, 1e-10);
+    EXPECT_NEAR(sample[1], 1.0, 1e-15) << "the mean";
+    ++chosen[static_cast<std::size_t>(sample[2])];
+  }
+  EXPECT_EQ(ends[0], 4);
+  EXPECT_EQ(chosen, std::vector<int>(4, 2));
+  EXPECT_TRUE(corners({quantities()[1], quantities()[2]}).empty()) << "no interval";
+  EXPECT_EQ(corners(std::vector<UncertainQuantity>(6, quantities()[0])).size(), 64u);
+  EXPECT_TRUE(corners(std::vector<UncertainQuantity>(7, quantities()[0])).empty());
+}
+
 TEST(Samples, HaveTheMeansOfTheirDistributions) {
   double uniform = 0.0, normal = 0.0;
   std::vector<int> chosen(4, 0);

@@ -484,9 +484,10 @@ class Report(unittest.TestCase):
         lines = whole["tuned.csv"].splitlines(keepends=True)
         cases = {"tuned.urdf": ((whole["tuned.urdf"][:300], "tuned.urdf:"), (b"", "tuned.urdf:1:"),
                                 (b"<robot name='a'><joint name='b'/></robot>", "tuned.urdf: not a model in URDF")),
-                 "tuned.csv": ((b"".join(lines[:3]) + lines[3][:20] + b"\n", "tuned.csv:4: "), (b"".join(lines[:3]) + b"\xff\n", "tuned.csv:4: ")),
+                 "tuned.csv": ((b"".join(lines[:3]) + lines[3][:20] + b"\n", "tuned.csv:4: "), (b"".join(lines[:3]) + b"\xff\n", "tuned.csv:4: "),
+                               (lines[0] + b"1" * 200000, "tuned.csv:2: not a table")),
                  "details.json": ((b"[" * 100000, "details.json: not JSON"), (b'{"tuned": 3, "parameters": 4}', "a file of this job is damaged")),
-                 "result.json": ((whole["result.json"][:50], "result.json: not JSON"), (b'{"objective": "x", "gradient": 1}', "is damaged"))}
+                 "result.json": ((whole["result.json"][:50], "not JSON from column "), (b'{"a": 1,\n "b" 2}', "result.json:2: not JSON from column 6 on"), (b'{"objective": "x", "gradient": 1}', "is damaged"))}
         for name, damages in cases.items():
             for content, words in damages:
                 with open(self.path("damaged", name), "wb") as file:
@@ -494,9 +495,20 @@ class Report(unittest.TestCase):
                 done = run("report", self.path("damaged"), "-o", self.path("damaged.html"))
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(words, done.stderr)
-                self.assertNotIn("Traceback", done.stderr)
+                self.assertNotRegex(done.stderr, r"Traceback|Error|Errno|Expecting|codec|: line \d+, column", "in words of its own")
             with open(self.path("damaged", name), "wb") as file:
                 file.write(whole[name])
+
+    def test_a_folder_need_not_be_utf_8(self):
+        folder = os.path.join(os.fsencode(self.path("folders")), b"gr\xfc\xdfe")
+        shutil.copytree(self.path("job"), os.fsdecode(folder))
+        done = run("report", os.fsdecode(folder), "-o", os.path.join(os.fsdecode(folder), "page.html"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page = read(os.path.join(folder, b"page.html")).decode("utf-8")
+        self.assertIn(r"/gr\xfc\xdfe", html.unescape(page), "a word that bash takes for these bytes")
+        missing = subprocess.run([PROGRAM, "report", os.path.join(folder, b"none")], capture_output=True, check=False)
+        self.assertEqual(missing.returncode, 2)
+        self.assertIn(b"gr\xfc\xdfe/none: neither a folder", missing.stderr)
 
     def test_every_termination_has_words(self):
         sources = ("optimization/algorithm.cc", "optimization/levenberg_marquardt.cc", "identification/fit/residual_fit.cc")

@@ -49,7 +49,7 @@ void require_partner(const YamlValue& controller, const std::string& key, bool h
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
   own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
   if (kind->is_pid)
-    own.insert(own.end(), {"i_clamp", "antiwindup", "derivative_filter", "quantization"});
+    own.insert(own.end(), {"i_clamp", "antiwindup", "derivative", "derivative_filter", "quantization"});
   return own;
 }
 
@@ -62,11 +62,15 @@ void read_realization(const YamlValue& value, const ParameterTable& table,
   realization.time_constant = read_positive_quantity(value, "time_constant", table);
   if (const auto antiwindup = value.find("antiwindup"))
     realization.antiwindup = antiwindup->boolean();
+  if (const auto derivative = value.find("derivative"))
+    realization.rates_input =
+        derivative->choice("quantity", {"error", "measurement"}) == "measurement";
   realization.sample_time = read_instant(value, "sample_time", false);
   realization.delay = read_instant(value, "delay", true);
   realization.quantization = read_instant(value, "quantization", true);
   require_partner(value, "i_clamp", !controller->i.is_zero(), "a gain i");
   require_partner(value, "antiwindup", realization.i_clamp.has_value(), "i_clamp");
+  require_partner(value, "derivative", !controller->d.is_zero(), "a gain d");
   require_partner(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
   require_partner(value, "delay", realization.is_sampled(), "sample_time");
   require_partner(value, "quantization", realization.is_sampled(), "sample_time");

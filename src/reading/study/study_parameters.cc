@@ -95,6 +95,12 @@ constexpr const char* kFormsOfConstraints =
     "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]} or "
     "{peak: signal, at_most: bound}";
 
+/// Whether both bounds are the same number, so that the expression has to have it.
+bool is_one_number(const Between& bounds) {
+  return bounds.lower && bounds.upper && bounds.lower->is_constant() &&
+         bounds.upper->is_constant() && bounds.lower->nominal() == bounds.upper->nominal();
+}
+
 std::string text_of(const Quantity& quantity) {
   return quantity.is_constant() ? to_decimal(quantity.nominal()) : quantity.expression()->text();
 }
@@ -108,17 +114,23 @@ void read_bounded_expression(const YamlValue& item, const ParameterTable& table,
   if (expression.is_constant() || expression.expression()->dependencies().empty())
     at.fail("no parameter appears in the constraint", "an \"${expression}\" of the parameters");
   const Between bounds = read_between(item, table);
-  if (bounds.lower && bounds.upper && !(bounds.lower->nominal() < bounds.upper->nominal()))
+  const bool is_equality = is_one_number(bounds);
+  if (bounds.lower && bounds.upper && !is_equality &&
+      !(bounds.lower->nominal() < bounds.upper->nominal()))
     item.fail("the lower bound, " + to_decimal(bounds.lower->nominal()) +
                   ", must be less than the upper one, " + to_decimal(bounds.upper->nominal()) +
                   ", at the parameters' start",
-              "lower < upper; a parameter that follows from others is no parameter, but an "
-              "expression where it is used");
+              "lower < upper, or twice the same number for an equality");
   const auto add = [&](const std::string& text, const std::string& less, const std::string& more) {
     study->constraints.push_back(
         make_constraint(text, less, more, table.names, item.where(), item.path()));
   };
   const std::string middle = expression.expression()->text();
+  if (is_equality) {
+    add(middle + " == " + text_of(*bounds.lower), text_of(*bounds.lower), middle);
+    study->constraints.back().is_equality = true;
+    return;
+  }
   if (bounds.lower) add(middle + " >= " + text_of(*bounds.lower), text_of(*bounds.lower), middle);
   if (bounds.upper) add(middle + " <= " + text_of(*bounds.upper), middle, text_of(*bounds.upper));
 }

@@ -95,6 +95,9 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   study.excursions = find_excursions(study);
   study.used_parameters = robot.used_parameters;
   study.used_parameters.insert(table.used.begin(), table.used.end());
+  study.switches = robot.switches;
+  study.switches.insert(study.switches.end(), table.switches.begin(), table.switches.end());
+  add_switches_at_instants(table, &study);
   if (const auto limits = root.find("limits")) study.limits = read_limit_options(*limits);
   if (const auto solver = root.find("solver")) study.solver = read_solver_options(*solver);
   // Step control tests the errors of motions; the effort of a given motion may change within a step

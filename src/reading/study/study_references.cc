@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "recordings/number_table.h"
 #include "text/number_text.h"
@@ -107,12 +108,34 @@ TrajectoryAddress read_address(const YamlValue& value) {
     address.joint = value.at("joint").text();
     return address;
   }
-  value.require_keys({"type", "csv", "column"}, {"time", "interpolation"});
+  value.require_keys({"type", "csv", "column"}, {"time", "delimiter", "interpolation"});
+  OptionReader{value}("delimiter", kCellDelimiterNames, address.delimiter);
   address.csv = value.at("csv").text();
   address.column = value.at("column").text();
   const auto time = value.find("time");
   address.time = time ? time->text() : "time";
   return address;
+}
+
+/// Times that a trajectory can have, or the line of the table that has another one.
+void check_times(const NumberTable::Columns& cells, const NumberTable& table,
+                 const std::string& column) {
+  const std::vector<double>& times = cells.values[0];
+  if (times.size() < 2)
+    throw InputError({{table.file(), table.first_line()},
+                      "column \"" + column + "\"",
+                      "a trajectory needs at least two way-points, found " +
+                          std::to_string(times.size()),
+                      "",
+                      "a row per way-point"});
+  for (std::size_t k = 1; k < times.size(); ++k)
+    if (!(times[k - 1] < times[k]))
+      throw InputError({{table.file(), static_cast<int>(cells.lines[k])},
+                        "column \"" + column + "\"",
+                        "the times must ascend, and this one does not come later than that of the "
+                        "row before",
+                        to_decimal(times[k]),
+                        "more than " + to_decimal(times[k - 1])});
 }
 
 /// A column of a table over its column of times.
@@ -121,7 +144,7 @@ RecordedTrajectory read_column(const TrajectoryAddress& address, const FileLoade
     throw InputError({address.where, address.element, "no file can be read here", address.csv,
                       "{type: waypoints, ...}"});
   const SourceText source = files({address.csv, address.where, address.element});
-  const NumberTable table(source.name, source.text, CellDelimiter::kAuto);
+  const NumberTable table(source.name, source.text, address.delimiter);
   std::vector<int> columns;
   for (const std::string& name : {address.time, address.column})
     columns.push_back(
@@ -135,6 +158,7 @@ RecordedTrajectory read_column(const TrajectoryAddress& address, const FileLoade
                           "not finite",
                           to_decimal(cells.values[k][row]),
                           "finite numbers"});
+  check_times(cells, table, address.time);
   return {std::move(cells.values[0]), std::move(cells.values[1]), {}, {}};
 }
 

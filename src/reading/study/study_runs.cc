@@ -145,7 +145,7 @@ std::vector<RunDescription> read_table_of_runs(const YamlValue& runs, const Stud
                                                const FileLoader& files) {
   if (!files) runs.fail("no file can be read here", "the runs themselves");
   const SourceText source = files({runs.text(), runs.where(), runs.path()});
-  const NumberTable table(source.name, source.text, CellDelimiter::kAuto);
+  const NumberTable table(source.name, source.text, CellDelimiter::kAuto, false);
   const std::vector<std::string>& names = table.names();
   const auto of_names = std::find(names.begin(), names.end(), "run");
   if (of_names == names.end())

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
+#include "description/formula.h"
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
@@ -82,6 +84,63 @@ void use_parameters(const SignalDescription& signal, const ParameterTable& table
   for (const std::string& name : signal.formula->names)
     if (const auto found = table.index.find(name); found != table.index.end())
       table.used.insert(found->second);
+  for (ParameterSwitch& one : switches_of(signal, table, false))
+    table.switches.push_back(std::move(one));
+}
+
+std::vector<ParameterSwitch> switches_of(const SignalDescription& signal,
+                                         const ParameterTable& table, bool at_instant) {
+  if (!signal.formula) return {};
+  std::vector<ExpressionVariable> variables;
+  for (const std::string& name : signal.formula->names) {
+    const auto found = table.index.find(name);
+    if (found != table.index.end())
+      variables.push_back({VariableKind::kParameter, found->second});
+    else
+      variables.push_back({name == "t" ? VariableKind::kTime : VariableKind::kSignal, -1});
+  }
+  std::vector<ParameterSwitch> found = find_switches(
+      signal.formula->steps, signal.formula->text,
+      [&](int k) { return variables[to_index(k)]; }, at_instant);
+  // Any numbers, at which signals do not happen to cancel a jump.
+  for (const double other : {0.37, -1.3})
+    for (ParameterSwitch& one : found)
+      one.values.emplace_back([formula = signal.formula, variables, other](
+                                  const std::vector<double>& parameters) {
+        std::vector<double> values;
+        for (const ExpressionVariable& variable : variables)
+          values.push_back(variable.parameter < 0 ? other
+                                                  : parameters[to_index(variable.parameter)]);
+        return evaluate_formula<double>(formula->steps, In<double>(values));
+      });
+  return found;
+}
+
+void add_switches_at_instants(const ParameterTable& table, Study* study) {
+  const auto add = [&](std::vector<ParameterSwitch> switches) {
+    study->switches.insert(study->switches.end(), switches.begin(), switches.end());
+  };
+  for (const ObjectiveTerm& term : study->terminal) add(switches_of(term.signal, table, true));
+  if (study->postures > 0)
+    for (const ObjectiveTerm& term : study->integral) add(switches_of(term.signal, table, true));
+  for (const WatchedSignal& watched : study->watched)
+    if (!has_band(watched)) add(switches_of(watched.signal, table, true));
+  constexpr int kInstants = 16;
+  for (const ControllerDescription& controller : study->controllers) {
+    const ControlRealization& realization = controller.realization;
+    if (!realization.is_sampled()) continue;
+    const auto look = [&](const ReferenceDescription& reference) {
+      if (reference.kind != ReferenceDescription::Kind::kExpression) return;
+      std::vector<double> times;
+      for (int k = 0; k < kInstants; ++k)
+        times.push_back(realization.sample_time *
+                        std::floor(study->duration * k / kInstants / realization.sample_time));
+      add(table.switches_of(reference.expression.formula, times, true));
+    };
+    look(controller.setpoint);
+    look(controller.feedforward);
+    for (const FeedbackTerm& term : controller.feedback) look(term.reference);
+  }
 }
 
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table) {

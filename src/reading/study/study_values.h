@@ -45,6 +45,14 @@ Quantity read_quantity(const YamlValue& value, const ParameterTable& table);
 /// parameters are left to resolve_signal().
 void use_parameters(const SignalDescription& signal, const ParameterTable& table);
 
+/// The switches of a signal that is an expression, find_switches().
+std::vector<ParameterSwitch> switches_of(const SignalDescription& signal,
+                                         const ParameterTable& table, bool at_instant);
+
+/// Adds the switches of what is read at single instants: terminal terms, terms of postures, watched
+/// signals without a band, and functions of time that a sampled controller reads.
+void add_switches_at_instants(const ParameterTable& table, Study* study);
+
 /// A list of three quantities. @throws InputError
 QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 

@@ -5,11 +5,14 @@
 #include <cmath>
 
 #include "mechanism/mass_properties.h"
+#include "reading/urdf/mesh_reader.h"
 #include "reading/urdf/quantity_reader.h"
 #include "text/number_text.h"
 
 namespace codesign {
 namespace {
+
+constexpr const char* kShapes = "<box>, <cylinder>, <sphere> or <mesh>";
 
 ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& table) {
   ShapeDescription shape;
@@ -17,8 +20,7 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
   const XmlElement geometry = visual.only("geometry");
   const std::vector<XmlElement> kinds = geometry.children();
   if (kinds.size() != 1)
-    geometry.fail("the geometry does not hold exactly one shape", "",
-                  "<box>, <cylinder> or <sphere>");
+    geometry.fail("the geometry does not hold exactly one shape", "", kShapes);
   const XmlElement& kind = kinds.front();
   if (kind.tag() == "box") {
     shape.kind = ShapeDescription::Kind::kBox;
@@ -32,23 +34,28 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
   } else if (kind.tag() == "sphere") {
     shape.kind = ShapeDescription::Kind::kSphere;
     shape.size[0] = read_quantity(kind, "radius", Range::kPositive, table);
+  } else if (kind.tag() == "mesh") {
+    shape.kind = ShapeDescription::Kind::kMesh;
+    shape.size = {1.0, 1.0, 1.0};
+    if (kind.has("scale")) shape.size = read_vector(kind, "scale", table);
+    for (const Quantity& scale : shape.size)
+      if (scale.nominal() == 0.0) kind.fail_at("scale", "the mesh has no volume", "not 0");
+    shape.mesh = std::make_shared<const MeshMoments>(read_mesh(kind));
   } else {
-    kind.fail("mass cannot be computed from this shape", "<" + kind.tag() + ">",
-              "<box>, <cylinder> or <sphere>");
+    kind.fail("mass cannot be computed from this shape", "<" + kind.tag() + ">", kShapes);
   }
   return shape;
 }
 
 /// The solids of a link's `<visual>` or `<collision>` elements.
-/// @param tag "visual" or "collision". @throws InputError if there are none, or if one is a mesh,
-/// whose volume is not computed.
+/// @param tag "visual" or "collision". @throws InputError if there are none.
 std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::string& tag,
                                           const ParameterTable& table) {
   std::vector<ShapeDescription> shapes;
   for (const XmlElement& visual : link.children(tag)) shapes.push_back(read_solid(visual, table));
   if (shapes.empty())
     link.fail("the link has no <" + tag + "> to compute its mass from", "",
-              "a <" + tag + "> with box, cylinder or sphere, or codesign:from=\"" +
+              "a <" + tag + "> with box, cylinder, sphere or mesh, or codesign:from=\"" +
                   (tag == "visual" ? "collision" : "visual") + "\"");
   return shapes;
 }
@@ -120,7 +127,43 @@ InertialDescription read_from_shapes(const XmlElement& link, const XmlElement& i
   return result;
 }
 
+tinyxml2::XMLElement* child_of(tinyxml2::XMLElement* inertial, const char* tag,
+                               XmlDocument* document) {
+  tinyxml2::XMLElement* child = inertial->FirstChildElement(tag);
+  return child != nullptr ? child
+                          : document->append_new(inertial, tag, document->location(inertial));
+}
+
+void write_properties(tinyxml2::XMLElement* inertial, const MassProperties<double>& m,
+                      XmlDocument* document) {
+  tinyxml2::XMLElement* origin = child_of(inertial, "origin", document);
+  origin->SetAttribute("xyz", format_numbers({m.centre[0], m.centre[1], m.centre[2]}).c_str());
+  origin->SetAttribute("rpy", "0 0 0");
+  child_of(inertial, "mass", document)->SetAttribute("value", to_decimal(m.mass).c_str());
+  tinyxml2::XMLElement* inertia = child_of(inertial, "inertia", document);
+  constexpr int kRows[] = {0, 0, 0, 1, 1, 2}, kColumns[] = {0, 1, 2, 1, 2, 2};
+  for (std::size_t k = 0; k < kInertia.size(); ++k)
+    inertia->SetAttribute(kInertia[k], to_decimal(m.inertia(kRows[k], kColumns[k])).c_str());
+}
+
 }  // namespace
+
+void write_out_densities(XmlDocument* document) {
+  const XmlElement robot(document->robot(), document);
+  const ParameterTable table(read_parameters(robot));
+  for (tinyxml2::XMLElement* node = document->robot()->FirstChildElement("link"); node != nullptr;
+       node = node->NextSiblingElement("link")) {
+    const XmlElement link(node, document);
+    const std::optional<XmlElement> inertial = link.child("inertial");
+    if (!inertial || !inertial->has("codesign:density") || !inertial->in_overlay("codesign:density"))
+      continue;
+    const std::optional<XmlElement> mass = inertial->child("mass");
+    if (mass && mass->in_overlay("value") && inertial->child("inertia")) continue;
+    const MassProperties<double> properties =
+        mass_properties(read_from_shapes(link, *inertial, table), table.values);
+    write_properties(node->FirstChildElement("inertial"), properties, document);
+  }
+}
 
 std::optional<InertialDescription> read_inertial(const XmlElement& link,
                                                  const ParameterTable& table) {

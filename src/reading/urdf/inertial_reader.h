@@ -17,6 +17,11 @@ namespace codesign {
 std::optional<InertialDescription> read_inertial(const XmlElement& link,
                                                  const ParameterTable& table);
 
+/// Writes mass, centre and inertia into each `<inertial>` whose density an overlay gives: computed
+/// from the shapes at the parameters' defaults, unless the overlay gives them as well.
+/// @throws InputError as read_inertial().
+void write_out_densities(XmlDocument* document);
+
 /// Writes out every `<inertial codesign:inertia="free">`: the document gets ten
 /// `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see kLogCholeskyNames), and mass, centre
 /// and inertia get twins, so that every value of the parameters is physically possible; theory

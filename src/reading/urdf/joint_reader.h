@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct ReadContext {
   ParameterTable table;
   Warnings* warnings = nullptr;         ///< never null while a robot is read
   const Laws* laws = &standard_laws();  ///< never null
+  std::unordered_map<std::string, int> link_indices{};  ///< of `links`; empty: they are searched
 
   /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest
   /// name.

@@ -60,6 +60,42 @@ const fs::path& MeshFinder::folder_of(const std::string& package) {
                                  : folders_.emplace(package, find_package(package)).first->second;
 }
 
+namespace {
+
+/// A package in whose folders a model lies, or beside one of them.
+fs::path package_around(const fs::path& model, const std::string& name) {
+  for (fs::path folder = model.parent_path(); !folder.empty(); folder = folder.parent_path()) {
+    if (folder.filename() == name) return folder;
+    if (is_folder(folder / name)) return folder / name;
+    if (folder == folder.root_path()) break;
+  }
+  return {};
+}
+
+}  // namespace
+
+fs::path MeshFinder::find(const std::string& uri, const std::string& model) {
+  std::error_code ignored;
+  const auto if_there = [&ignored](const fs::path& path) {
+    return fs::is_regular_file(path, ignored) ? path : fs::path();
+  };
+  const std::size_t scheme = uri.find("://");
+  const fs::path of_model = fs::absolute(model, ignored);
+  if (scheme == std::string::npos) return if_there(of_model.parent_path() / uri);
+  const std::string rest = uri.substr(scheme + 3);
+  if (begins_with(uri, "file://")) return if_there(rest);
+  const std::size_t slash = rest.find('/');
+  if ((!begins_with(uri, "package://") && !begins_with(uri, "model://")) ||
+      slash == std::string::npos)
+    return {};
+  const std::string package = rest.substr(0, slash), inside = rest.substr(slash + 1);
+  const fs::path around = package_around(of_model, package);
+  if (!around.empty())
+    if (fs::path found = if_there(around / inside); !found.empty()) return found;
+  const fs::path& folder = folder_of(package);
+  return folder.empty() ? fs::path() : if_there(folder / inside);
+}
+
 bool MeshFinder::is_there(const std::string& uri) {
   static const std::string kPackage = "package://", kFile = "file://";
   std::error_code ignored;

@@ -47,6 +47,11 @@ class MeshFinder {
   /// @param uri the filename of a `<mesh>`. Without a scheme (`package://`, `file://`) viewers do
   /// not find it. What is on a network counts as there.
   bool is_there(const std::string& uri);
+  /// The file of a mesh, for programs that read it; empty if it is not here. Besides the above, a
+  /// package may be a folder above the model or beside one of those, and a path without a scheme
+  /// begins in the folder of the model.
+  /// @param model the path of the URDF.
+  std::filesystem::path find(const std::string& uri, const std::string& model);
 
  private:
   const std::filesystem::path& folder_of(const std::string& package);

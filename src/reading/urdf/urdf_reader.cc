@@ -119,6 +119,7 @@ XmlDocument load_annotated_urdf(const SourceText& urdf, const std::vector<Source
   Warnings warnings;
   check_vocabulary(document, &warnings);
   document.note(warnings);
+  write_out_densities(&document);
   write_out_free_inertias(&document);
   apply_set_values(&document, laws);
   return document;
@@ -137,7 +138,10 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
     robot.links.push_back(read_link(link, context.table));
   if (robot.links.empty())
     element.fail("the robot has no links", "", "at least one <link name=\"...\">");
-  for (const LinkDescription& link : robot.links) context.links.push_back(link.name);
+  for (const LinkDescription& link : robot.links) {
+    context.link_indices.emplace(link.name, static_cast<int>(context.links.size()));
+    context.links.push_back(link.name);
+  }
   for (const XmlElement& joint : element.children("joint"))
     robot.joints.push_back(read_joint(joint, context));
   close_with_second_parents(&robot);
@@ -151,6 +155,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   robot.used_parameters = context.table.used;
+  robot.switches = context.table.switches;
   check_names(robot);
   robot.root = find_root(robot);
   warn_of_foreign_loops(element, robot, &robot.warnings);
@@ -159,6 +164,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   check_friction(robot);
   check_with_urdfdom(document);
   sort_by_place(robot.file, &robot.warnings);
+  count_repetitions(&robot.warnings);
   return robot;
 }
 

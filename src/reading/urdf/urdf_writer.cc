@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/urdf_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -80,14 +81,35 @@ void write_inertial(XMLElement* inertial, const MassProperties<double>& properti
           to_decimal(properties.inertia(static_cast<int>(i), static_cast<int>(j))).c_str());
 }
 
+/// Whether a link has meshes, and no parameter changes its mass.
+bool has_constant_meshes(const InertialDescription& inertial) {
+  const auto is_constant = [](const Quantity& quantity) { return quantity.is_constant(); };
+  const auto all_constant = [&](const QuantityVector& vector) {
+    return std::all_of(vector.begin(), vector.end(), is_constant);
+  };
+  return is_constant(*inertial.density) &&
+         std::any_of(inertial.shapes.begin(), inertial.shapes.end(),
+                     [](const ShapeDescription& shape) { return shape.mesh != nullptr; }) &&
+         std::all_of(inertial.shapes.begin(), inertial.shapes.end(),
+                     [&](const ShapeDescription& shape) {
+                       return all_constant(shape.size) && all_constant(shape.origin.xyz) &&
+                              all_constant(shape.origin.rpy);
+                     });
+}
+
 void write_inertials(XMLElement* robot, const std::vector<LinkDescription>& links,
                      const std::vector<double>& values) {
   std::size_t k = 0;
   for (XMLElement* link = robot->FirstChildElement("link"); link != nullptr;
        link = link->NextSiblingElement("link"), ++k) {
     const std::optional<InertialDescription>& inertial = links[k].inertial;
-    if (inertial && inertial->density)
-      write_inertial(link->FirstChildElement("inertial"), mass_properties(*inertial, values));
+    if (!inertial || !inertial->density) continue;
+    XMLElement* node = link->FirstChildElement("inertial");
+    write_inertial(node, mass_properties(*inertial, values));
+    // The file may be moved away from its meshes, whose numbers it has.
+    if (has_constant_meshes(*inertial))
+      for (const char* attribute : {"codesign:density", "codesign:from"})
+        node->DeleteAttribute(attribute);
   }
 }
 
@@ -112,11 +134,31 @@ void fill_in_twins(XmlDocument* document) {
   write_twins(document->robot(), "robot", {*document, ParameterTable(parameters), values});
 }
 
-std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws) {
+namespace {
+
+/// Notes where the elements of a printed document came from. @param printed, original the same
+/// element of both.
+void note_origins(const XMLElement* printed, const XMLElement* original,
+                  const XmlDocument& document, std::vector<SourceLocation>* origins) {
+  const auto line = to_index(printed->GetLineNum());
+  if (origins->size() < line) origins->resize(line);
+  if ((*origins)[line - 1].line == 0) (*origins)[line - 1] = document.location(original);
+  const XMLElement* from = original->FirstChildElement();
+  for (const XMLElement* child = printed->FirstChildElement(); child != nullptr && from != nullptr;
+       child = child->NextSiblingElement(), from = from->NextSiblingElement())
+    note_origins(child, from, document, origins);
+}
+
+}  // namespace
+
+SourceText write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                             const Laws& laws) {
   XmlDocument document = load_annotated_urdf(urdf, overlays, laws, PlainNumbers::kFilledIn);
-  read_robot(document, laws);  // with the lines of the files, which the text no longer has
-  return document.text();
+  read_robot(document, laws);
+  SourceText filled{urdf.name, document.text()};
+  const XmlDocument printed(filled);
+  note_origins(printed.robot(), document.robot(), document, &filled.origins);
+  return filled;
 }
 
 namespace {

@@ -62,10 +62,8 @@ class Check {
     Warnings all;
     for (const Noted& noted : noted_) {
       all.push_back(noted.first);
-      if (noted.further == 0) continue;
-      all.back().message += "; the same at " + std::to_string(noted.further) +
-                            (noted.further == 1 ? " further place" : " further places") +
-                            " of this file, the last in line " + std::to_string(noted.last_line);
+      if (noted.further > 0)
+        all.back().message += further_places(noted.further, noted.last_line);
     }
     return all;
   }

@@ -59,7 +59,9 @@ int blank_late_declaration(std::string* text) {
 }  // namespace
 
 XmlDocument::XmlDocument(const SourceText& source)
-    : file_(source.name), dom_(std::make_unique<tinyxml2::XMLDocument>()) {
+    : file_(source.name),
+      origins_(source.origins),
+      dom_(std::make_unique<tinyxml2::XMLDocument>()) {
   tinyxml2::XMLError fault = dom_->Parse(source.text.c_str(), source.text.size());
   if (fault == tinyxml2::XML_ERROR_PARSING_DECLARATION) {
     std::string text = source.text;
@@ -97,7 +99,13 @@ std::string XmlDocument::text(bool compact) const {
 SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element) const {
   const auto found = foreign_elements_.find(element);
   return found != foreign_elements_.end() ? found->second
-                                          : SourceLocation{file_, element->GetLineNum()};
+                                          : at_line(element->GetLineNum());
+}
+
+SourceLocation XmlDocument::at_line(int line) const {
+  if (line >= 1 && to_index(line) <= origins_.size() && origins_[to_index(line - 1)].line > 0)
+    return origins_[to_index(line - 1)];
+  return {file_, line};
 }
 
 SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element,
@@ -106,7 +114,7 @@ SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element,
   if (found != foreign_attributes_.end()) return found->second;
   const tinyxml2::XMLAttribute* own = element->FindAttribute(attribute.c_str());
   if (own == nullptr || foreign_elements_.count(element) != 0) return location(element);
-  return {file_, own->GetLineNum()};
+  return at_line(own->GetLineNum());
 }
 
 tinyxml2::XMLElement* XmlDocument::append_new(tinyxml2::XMLElement* parent, const char* tag,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/source_text.h"
@@ -50,7 +51,10 @@ class XmlDocument {
                        const XmlDocument& source);
 
  private:
+  SourceLocation at_line(int line) const;
+
   std::string file_;
+  std::vector<SourceLocation> origins_;  ///< SourceText::origins
   Warnings warnings_;
   std::unique_ptr<tinyxml2::XMLDocument> dom_;
   std::map<const tinyxml2::XMLElement*, SourceLocation> foreign_elements_;

@@ -48,8 +48,8 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
     extremes = std::move(all.extremes);
   } else {
     check = check_gradient(ensemble, rho, method_of(request.check), &cancel);
-    check_steps(ensemble, rho, &cancel, &check);
     check_other_steps(ensemble, rho, &cancel, &check);
+    check_steps(ensemble, rho, &cancel, &check);
     // A check computes many runs, so that one more run per scenario for the signals is cheap.
     if (check.status.ok() && !study_of(problem).watched.empty())
       extremes = ensemble.evaluate(rho, false, &cancel).extremes;

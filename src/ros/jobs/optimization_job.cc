@@ -21,6 +21,7 @@
 #include "mechanism_codesign/optimization.h"
 #include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
+#include "optimization/search_results.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/urdf_reader.h"
 #include "ros/bags/job_bag.h"
@@ -119,7 +120,8 @@ class Job {
     nominal.system = system_of(problem_);
     record_->nominal = run_both(problem_, result_, nominal, options_.rate, &patience);
     if (const int worst = worst_scenario(result_); worst >= 0)
-      record_->worst = run_both(problem_, result_, make_scenarios(problem_)[to_index(worst)],
+      record_->worst = run_both(problem_, result_,
+                                scenario_of(problem_, result_.ensemble.scenarios[to_index(worst)]),
                                 options_.rate, &patience);
     outcome_->tuned_urdf = record_->nominal.tuned.urdf;
     outcome_->result.warnings = warning_messages(problem_.warnings(), warnings());

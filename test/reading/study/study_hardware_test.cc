@@ -52,6 +52,15 @@ TEST(StudyRealization, IsOffByDefault) {
   EXPECT_EQ(realization.queued(), 0);
 }
 
+TEST(StudyRealization, TheDerivativeActsOnTheErrorUnlessToldOtherwise) {
+  const auto rates_input = [](const std::string& keys) {
+    return read_text(realization_text(keys)).controllers.at(0).realization.rates_input;
+  };
+  EXPECT_FALSE(rates_input("i_clamp: 1"));
+  EXPECT_FALSE(rates_input("derivative: error"));
+  EXPECT_TRUE(rates_input("derivative: measurement"));
+}
+
 TEST(StudyRealization, RefusesTheAdjointOfSamples) {
   expect_fault(realization_text("sample_time: 0.01") + "solver: {gradient: adjoint}\n",
                "solver.gradient", "does not go back over the samples", 6);

@@ -136,7 +136,23 @@ TEST(StudyReferences, ATrajectoryInATable) {
             std::string::npos);
   EXPECT_NE(fault("{type: trajectory, csv: road.csv, column: height}", table).find("road.csv:1"),
             std::string::npos);
+  EXPECT_NE(fault(reference, "t,height\n0,0.5\n# a note\n1,0.7\n1,0.8\n")
+                .find("road.csv:5: column \"t\": the times must ascend"),
+            std::string::npos);
+  EXPECT_NE(fault(reference, "t,height\n0,0.5\n").find("road.csv:1: column \"t\": a trajectory needs"),
+            std::string::npos);
   EXPECT_THROW(read_study({"study.yaml", with_reference(reference)}, study_robot()), InputError);
+  // The comma is the decimal point of the names, and the semicolon the separator.
+  const std::string semicolons = "t;height,left\n0;0.5\n0.5;0.7\n";
+  const std::string of_left = "{type: trajectory, csv: road.csv, column: \"height,left\", time: t";
+  EXPECT_NE(fault(of_left + ", delimiter: comma}", semicolons).find("column of road.csv"),
+            std::string::npos);
+  EXPECT_NE(fault(reference, "t,height\n0,0.5\n1,0.7,3\n").find("road.csv:3: a row of 3 cells"),
+            std::string::npos);
+  EXPECT_EQ(read(of_left + ", delimiter: semicolon}", semicolons)
+                .integral.at(0)
+                .reference.waypoints.positions.size(),
+            2u);
 }
 
 TEST(StudyReferences, AnExpressionOfTime) {

@@ -176,19 +176,19 @@ TEST(FilledUrdf, HasThePlainNumberBesideEachTwin) {
   const SourceText without = pendulum(R"(<origin codesign:xyz="0 -${length} ${2*length}"/>
 <dynamics damping="7" codesign:damping="${length/2}"/>)");
   EXPECT_NE(error_of(without).find("lacks its plain attribute"), std::string::npos);
-  const std::string text = write_filled_urdf(without, {});
+  const std::string text = write_filled_urdf(without, {}).text;
   EXPECT_NE(text.find("xyz=\"0 -0.2 0.4\""), std::string::npos) << text;
   EXPECT_NE(text.find("damping=\"0.1\""), std::string::npos) << "a number that is there follows";
   const RobotDescription robot = read_urdf({"filled.urdf", text});
   EXPECT_EQ(robot.joints[0].origin.xyz[2].nominal(), 0.4);
-  EXPECT_EQ(write_filled_urdf({"filled.urdf", text}, {}), text);
+  EXPECT_EQ(write_filled_urdf({"filled.urdf", text}, {}).text, text);
 }
 
 TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   const SourceText overlay = {
       "over.xml",
       R"(<robot name="test" xmlns:codesign="urn:x"><joint name="hinge"><origin codesign:xyz="0 0 ${length}"/></joint></robot>)"};
-  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).find("xyz=\"0 0 0.2\""), std::string::npos);
+  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).text.find("xyz=\"0 0 0.2\""), std::string::npos);
   const auto fault_of_filled = [](const std::string& joint) -> std::string {
     try {
       write_filled_urdf(pendulum(joint, "<link name=\"arm\"/>"), {});
@@ -203,6 +203,35 @@ TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   EXPECT_NE(fault_of_filled(R"(<origin codesign:xyz="0 0 ${length}"/>)").find("test.urdf:3"),
             std::string::npos)
       << "a fault elsewhere";
+}
+
+TEST(FilledUrdf, WarningsHaveTheLinesOfTheFiles) {
+  const SourceText model = {"model.urdf",
+                            R"(<robot name="test" xmlns:codesign="urn:x">
+<codesign:parameter name="length" value="0.2"/><link name="ground"/>
+<link name="arm">
+
+  <inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+</link>
+
+
+<joint name="hinge" type="revolute"><parent link="ground"/><child link="arm"/><axis xyz="0 0 1"/>
+  <origin codesign:xyz="0 0 ${length}"/>
+  <limit lower="1" upper="-1" effort="1" velocity="1"/></joint></robot>)"},
+                   overlay = {"over.xml",
+                              R"(<robot name="test">
+
+
+<link name="arm"><visual><geometry><sphere radius="-1"/></geometry></visual></link></robot>)"};
+  const SourceText filled = write_filled_urdf(model, {overlay});
+  const RobotDescription robot = read_urdf(filled);
+  const auto line_of = [&](const std::string& code) {
+    for (const Warning& warning : robot.warnings)
+      if (warning.code == code) return warning.where.file + ":" + std::to_string(warning.where.line);
+    return std::string("none");
+  };
+  EXPECT_EQ(line_of("limits_reversed"), "model.urdf:11");
+  EXPECT_NE(filled.text.find("radius"), std::string::npos);
 }
 
 }  // namespace
