@@ -85,9 +85,31 @@ void set_frames(const RobotDescription& robot, const Topology& topology,
   }
 }
 
+// Squares and quotients of other masses and inertias leave the range of numbers.
+constexpr double kLeastMass = 1e-100, kLeastMoment = 1e-120;
+constexpr const char *kMassRange = "from 1e-100 to 1e+100 kg, or zero",
+                     *kMomentRange = "from 1e-120 to 1e+120 kg m^2, or zero";
+
+/// A mass or a moment of inertia that is not zero, but beyond what can be computed with.
+MassFault range_fault(const MassProperties<double>& body) {
+  const auto is_beyond = [](double x, double least) {
+    return x != 0.0 && !(std::abs(x) >= least && std::abs(x) <= 1.0 / least);
+  };
+  if (is_beyond(body.mass, kLeastMass))
+    return {"mass_out_of_range", "the mass is out of the range that can be computed with",
+            to_decimal(body.mass)};
+  const double moment = principal_moments(body.inertia)[2];
+  if (is_beyond(moment, kLeastMoment))
+    return {"inertia_out_of_range", "the inertia is out of the range that can be computed with",
+            to_decimal(moment)};
+  return {};
+}
+
 MassFault body_fault(const BodyConstants<double>& body) {
   if (!std::isfinite(body.mass) || !body.centre.allFinite() || !body.J.allFinite())
     return {"not_finite", "mass or inertia is not finite", ""};
+  if (MassFault fault = range_fault({body.mass, body.centre, body.J}); !fault.code.empty())
+    return fault;
   return find_mass_fault({body.mass, body.centre, body.J});
 }
 
@@ -299,6 +321,13 @@ void check_bodies(const RobotDescription& robot, Warnings* warnings) {
     const MassProperties<double> body =
         merged_mass(robot, groups.link_base, groups.link_parent_joint, links, values, &workspace);
     check_cancelled_mass(robot, body, base, links, values);
+    if (const MassFault fault = range_fault(body); !fault.code.empty()) {
+      InputFault place = fault_at(robot, base, links);
+      place.message = fault.message;
+      place.value = fault.value + "; links: " + names;
+      place.allowed = fault.code == "mass_out_of_range" ? kMassRange : kMomentRange;
+      throw InputError(place);
+    }
     const MassFault fault = find_mass_fault(body);
     if (fault.code.empty()) continue;
     InputFault place = fault_at(robot, base, links);

@@ -196,6 +196,27 @@ LuSchedule::Quality LuSchedule::quality() const {
   return quality;
 }
 
+// The terms of pivot k are the products of L left of it with U above it, and an entry of A, which
+// is at most as large as these and the pivot together.
+double LuSchedule::cancellation() const {
+  double least = 1.0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double pivot = std::abs(1.0 / factors_[to_index(diagonal_[k])]);
+    double largest = pivot;
+    for (int l = start_[k]; l < diagonal_[k]; ++l) {
+      const std::size_t row = to_index(column_[to_index(l)]);
+      const auto first = column_.begin() + diagonal_[row], last = column_.begin() + start_[row + 1];
+      const auto above = std::lower_bound(first, last, static_cast<int>(k));
+      if (above == last || *above != static_cast<int>(k)) continue;
+      const double product = factors_[to_index(l)] * factors_[to_index(above - column_.begin())];
+      largest = std::max(largest, std::abs(product));
+    }
+    if (!(pivot > 0.0) || !std::isfinite(largest)) return 0.0;
+    least = std::min(least, pivot / largest);
+  }
+  return least;
+}
+
 /// Eliminates row by row: for each entry of L in a row, that multiple of the pivot's row of U is
 /// subtracted.
 /// @param begin_row (row), called before a row is eliminated. @param target (entry of U) -> the

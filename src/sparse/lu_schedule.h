@@ -37,6 +37,11 @@ class LuSchedule {
     double pivot_ratio = 0.0;  ///< smallest over largest |pivot|
   };
 
+  /// The smallest |pivot| of the last refactor() over the largest term of the sum that it is: far
+  /// above rounding unless the matrix is singular to working precision, whatever the units of its
+  /// rows and columns are.
+  double cancellation() const;
+
   /// Takes the row scales of a pattern with the same pivots, as if constructed with it. False, and
   /// nothing is changed, for other pivots.
   bool rescale(const LuPattern& pattern);

@@ -15,6 +15,11 @@ namespace {
 constexpr double kLargestMultiplier = 1e6;
 // Smallest over largest pivot at which the matrix counts as singular to working precision.
 constexpr double kSingular = 1e-17;
+// Of a pivot over its largest term: less is what rounding leaves.
+constexpr double kRounding = 1e-13;
+// By how much the ratio may fall below that of a choice of pivots whose own ratio is below
+// kSingular.
+constexpr double kFall = 1e-6;
 constexpr std::size_t kMostSchedules = 4;
 // Including schedules of earlier runs, which are used again if the same pivots are chosen.
 constexpr std::size_t kMostKept = 8;
@@ -25,6 +30,7 @@ struct SparseLu::Implementation {
   struct Kept {
     LuSchedule schedule;
     bool is_settled = false;
+    double least_ratio = kSingular;  ///< of pivots, above which the schedule serves
   };
 
   std::vector<int> starts, rows;
@@ -41,7 +47,9 @@ struct SparseLu::Implementation {
     const auto first = schedules.end() - to_signed(chosen);
     for (std::size_t tried = 0; tried < chosen; ++tried) {
       const LuSchedule::Quality quality = schedule().refactor(values);
-      if (quality.growth <= kLargestMultiplier && quality.pivot_ratio > kSingular) return true;
+      if (quality.growth <= kLargestMultiplier &&
+          quality.pivot_ratio > schedules.back().least_ratio)
+        return true;
       std::rotate(first, schedules.end() - 1, schedules.end());
     }
     return false;
@@ -53,7 +61,11 @@ struct SparseLu::Implementation {
     if (!pattern) return false;
     add(*pattern);
     const double ratio = schedule().refactor(values).pivot_ratio;
-    return std::isfinite(ratio) && ratio > kSingular;
+    schedules.back().least_ratio = kSingular;
+    if (!std::isfinite(ratio) || ratio > kSingular) return std::isfinite(ratio);
+    if (!(ratio > 0.0) || !(schedule().cancellation() > kRounding)) return false;
+    schedules.back().least_ratio = kFall * ratio;
+    return true;
   }
 
   /// Brings a schedule for these pivots to the end: a earlier one or a new one.

@@ -13,7 +13,10 @@ namespace codesign {
 /// (choose_pivots()); later matrices are refactored with the same pivots (LuSchedule).
 ///
 /// If an entry of L exceeds 1e6 or the ratio of the smallest to the largest pivot falls to 1e-17,
-/// up to three earlier choices of pivots are tried, then pivots are chosen again. Not thread-safe.
+/// up to three earlier choices of pivots are tried, then pivots are chosen again. A matrix is
+/// singular to working precision if a pivot is what rounding leaves of its terms: not where it is
+/// only small, as those of light bodies beside constraints, whose rows have other units. For such
+/// matrices the ratio may fall to a millionth of that of the choice. Not thread-safe.
 class SparseLu {
  public:
   /// @param column_start, row_index compressed-column pattern of an n x n matrix.

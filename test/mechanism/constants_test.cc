@@ -151,6 +151,17 @@ TEST(BodyCheck, LinksThatAreWeldedTogetherAreJudgedAsOne) {
                {"test.urdf:2:", "fixed to each other cancel", "value: arm, part"});
 }
 
+TEST(BodyCheck, WhatNumbersCannotHoldIsRefused) {
+  for (const char* mass : {"1e-300", "1e-101", "1e101"})
+    expect_error(arm(inertial(mass, "1", "1", "1")),
+                 {"test.urdf:2: <link name=\"arm\"> <inertial>",
+                  "the mass is out of the range that can be computed with", mass});
+  expect_error(arm(inertial("1", "1e-200", "1e-200", "1e-200")),
+               {"the inertia is out of the range"});
+  expect_no_warning(arm(inertial("1e-99", "1e-110", "1e-110", "1e-110")));
+  expect_no_warning(arm(inertial("1e-30", "1e-60", "1e-60", "1e-60")));
+}
+
 TEST(BodyCheck, TheRootIsNotJudged) {
   const auto on_base = [](const std::string& base) {
     return robot_text(link_with("base", base) + link_with("arm") +

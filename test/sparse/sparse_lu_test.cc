@@ -122,6 +122,49 @@ TEST(SparseLu, TakesTheSettledPivotsOfAnother) {
   EXPECT_EQ(third.full_factorizations(), 1);
 }
 
+/// D m E with the units of other rows and columns.
+Eigen::Matrix4d in_units(const Eigen::Matrix4d& m, const Eigen::Vector4d& rows,
+                         const Eigen::Vector4d& columns) {
+  return rows.asDiagonal() * m * columns.asDiagonal();
+}
+
+// A body of little mass that slides without friction, whose multiplier has the unit of a force.
+Eigen::Matrix4d saddle(double mass, double second) {
+  Eigen::Matrix4d m;
+  m << mass, 0, 0, 0.6, 0, mass, 0, 0.8, 0, 0, second, 0.3, 0.6, 0.8, 0.3, 0;
+  return m;
+}
+
+TEST(SparseLu, SmallPivotsAreNoSingularMatrix) {
+  for (const double mass : {1e-12, 1e-26, 1e-60, 1e60}) {
+    SparseLu lu(kLuStart, kLuRows);
+    ASSERT_TRUE(lu.factor(saddle(mass, 3.0 * mass))) << mass;
+    const Eigen::Vector4d b(mass, 2.0 * mass, 3.0 * mass, 1.0);
+    Eigen::Vector4d x = b;
+    lu.solve(x);
+    SparseLu usual(kLuStart, kLuRows);
+    ASSERT_TRUE(usual.factor(saddle(1.0, 3.0)));
+    Eigen::Vector4d expected(1.0, 2.0, 3.0, 1.0);
+    usual.solve(expected);
+    expected[3] *= mass;
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(x[k] / expected[k], 1.0, 1e-12) << mass << ' ' << k;
+    for (int k = 1; k < 5; ++k) ASSERT_TRUE(lu.factor(saddle(mass, (3.0 + 0.1 * k) * mass)));
+    EXPECT_EQ(lu.full_factorizations(), 1) << "the pivots serve on";
+  }
+}
+
+TEST(SparseLu, MatricesWithoutAnInverseAreSingularInAnyUnits) {
+  Eigen::Matrix4d m = dense_matrix(4.0);
+  m.row(3) = 0.3 * m.row(0) + 0.7 * m.row(1) - 1.3 * m.row(2);
+  m.col(3) = m.col(0) + m.col(2);
+  for (const double unit : {1e-3, 1e-9, 1e-15, 1e-40, 1e20}) {
+    SparseLu lu(kLuStart, kLuRows);
+    EXPECT_FALSE(lu.factor(
+        in_units(m, Eigen::Vector4d(1, 1, unit, unit * unit), Eigen::Vector4d(1, 1, unit, unit))))
+        << unit;
+  }
+}
+
 TEST(SparseLu, ReportsSingularMatrices) {
   SparseLu lu(kLuStart, kLuRows);
   Eigen::Matrix4d m = dense_matrix(4.0);
