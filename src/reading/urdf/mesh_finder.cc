@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 namespace codesign {
@@ -11,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLevels = 3;
+constexpr std::string_view kPackage = "package://", kFile = "file://";
 
 bool is_folder(const fs::path& path) {
   std::error_code ignored;
@@ -48,7 +50,7 @@ fs::path find_package(const std::string& name) {
   return {};
 }
 
-bool begins_with(const std::string& text, const std::string& start) {
+bool begins_with(const std::string& text, std::string_view start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
@@ -61,15 +63,23 @@ const fs::path& MeshFinder::folder_of(const std::string& package) {
 }
 
 bool MeshFinder::is_there(const std::string& uri) {
-  static const std::string kPackage = "package://", kFile = "file://";
+  const bool is_elsewhere = uri.find("://") != std::string::npos && !begins_with(uri, kFile) &&
+                            !begins_with(uri, kPackage);
+  return is_elsewhere || !path_of(uri).empty();
+}
+
+fs::path MeshFinder::path_of(const std::string& uri) {
   std::error_code ignored;
-  if (begins_with(uri, kFile)) return fs::is_regular_file(uri.substr(kFile.size()), ignored);
-  if (!begins_with(uri, kPackage)) return uri.find("://") != std::string::npos;
-  const std::string rest = uri.substr(kPackage.size());
-  const std::size_t slash = rest.find('/');
-  if (slash == std::string::npos) return false;
-  const fs::path& folder = folder_of(rest.substr(0, slash));
-  return !folder.empty() && fs::is_regular_file(folder / rest.substr(slash + 1), ignored);
+  fs::path path;
+  if (begins_with(uri, kFile)) path = uri.substr(kFile.size());
+  if (begins_with(uri, kPackage)) {
+    const std::string rest = uri.substr(kPackage.size());
+    const std::size_t slash = rest.find('/');
+    if (slash == std::string::npos) return {};
+    const fs::path& folder = folder_of(rest.substr(0, slash));
+    if (!folder.empty()) path = folder / rest.substr(slash + 1);
+  }
+  return fs::is_regular_file(path, ignored) ? path : fs::path();
 }
 
 }  // namespace codesign

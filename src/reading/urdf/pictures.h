@@ -47,6 +47,8 @@ class MeshFinder {
   /// @param uri the filename of a `<mesh>`. Without a scheme (`package://`, `file://`) viewers do
   /// not find it. What is on a network counts as there.
   bool is_there(const std::string& uri);
+  /// The file on this machine; empty: there is none, or it is on a network.
+  std::filesystem::path path_of(const std::string& uri);
 
  private:
   const std::filesystem::path& folder_of(const std::string& package);

@@ -159,6 +159,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   check_friction(robot);
   check_with_urdfdom(document);
   sort_by_place(robot.file, &robot.warnings);
+  robot.warnings = told_once(robot.warnings);
   return robot;
 }
 

@@ -43,6 +43,12 @@ bool same_number(const XmlElement& element, const std::string& a, const std::str
   return number(a).has_value() && number(a) == number(b);
 }
 
+/// Whether the joint has the element that its <dynamics armature> is translated to.
+bool is_translated(const XmlElement& dynamics) {
+  const tinyxml2::XMLNode* const joint = dynamics.node()->Parent();
+  return joint != nullptr && joint->FirstChildElement("codesign:actuator") != nullptr;
+}
+
 class Check {
  public:
   void visit(const XmlElement& element, const std::string& path) {
@@ -57,33 +63,13 @@ class Check {
     for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
   }
 
-  /// One warning for each name at each place of the language, in the order of lines.
-  Warnings warnings() const {
-    Warnings all;
-    for (const Noted& noted : noted_) {
-      all.push_back(noted.first);
-      if (noted.further == 0) continue;
-      all.back().message += "; the same at " + std::to_string(noted.further) +
-                            (noted.further == 1 ? " further place" : " further places") +
-                            " of this file, the last in line " + std::to_string(noted.last_line);
-    }
-    return all;
-  }
+  /// Those of one name at one place of the language are of one kind.
+  const Warnings& warnings() const { return warnings_; }
 
  private:
-  /// A warning, and how often the same name stands in the same kind of element.
-  struct Noted {
-    std::string kind;
-    Warning first;
-    int further = 0, last_line = 0;
-  };
-
-  void note(const std::string& kind, const Warning& warning) {
-    const auto found = std::find_if(noted_.begin(), noted_.end(),
-                                    [&](const Noted& noted) { return noted.kind == kind; });
-    if (found == noted_.end()) return noted_.push_back({kind, warning});
-    ++found->further;
-    found->last_line = warning.where.line;
+  void note(const std::string& kind, Warning warning) {
+    warning.kind = kind;
+    warnings_.push_back(std::move(warning));
   }
 
   void check_attribute(const XmlElement& element, const std::string& attribute,
@@ -103,6 +89,7 @@ class Check {
       return;
     }
     const std::string* translation = found(words.translations, attribute);
+    if (translation != nullptr && is_translated(element)) return;
     const std::string near = translation ? "" : nearest_name(attribute, words.attributes);
     const std::string advice = translation    ? *translation + ", or "
                                : near.empty() ? ""
@@ -155,14 +142,14 @@ class Check {
       if (strict || ((single || inertial) && child.in_overlay()))
         child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
-        noted_.push_back(
-            {"", child.warning("repeated_element",
-                               "a second <" + tag + ">; the first one is used, as other readers do",
-                               "", "remove one")});
+        note(element.tag() + "/" + tag,
+             child.warning("repeated_element",
+                           "a second <" + tag + ">; the first one is used, as other readers do", "",
+                           "remove one"));
     }
   }
 
-  std::vector<Noted> noted_;
+  Warnings warnings_;
 };
 
 /// The prefix of a name: the part before the colon; of a declaration `xmlns:x` the part after it.
@@ -239,8 +226,7 @@ void refuse_text(const XmlDocument& overlay) { refuse_text_in(*overlay.robot(), 
 void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
   Check check;
   check.visit(XmlElement(document.robot(), &document), "robot");
-  const Warnings found = check.warnings();
-  warnings->insert(warnings->end(), found.begin(), found.end());
+  warnings->insert(warnings->end(), check.warnings().begin(), check.warnings().end());
 }
 
 void check_prefixes(const XmlDocument& document) {
