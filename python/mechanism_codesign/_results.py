@@ -55,7 +55,7 @@ class Run(Mapping[str, Array]):
 
     @property
     def statistics(self) -> Dict[str, float]:
-        """steps, rejected_steps, explicit_steps, cpu_seconds [s], constraint_drift [m or rad], energy_error (relative)."""
+        """steps, rejected_steps, explicit_steps, cpu_seconds [s], constraint_drift (over the error tolerance), energy_error (relative)."""
         return {key: self._record[key] for key in (
             "steps", "rejected_steps", "explicit_steps", "cpu_seconds", "constraint_drift", "energy_error")}
 

@@ -63,8 +63,12 @@ def read_text(path):
 def read_json(path):
     try:
         value = json.loads(read_text(path))
-    except (ValueError, RecursionError) as error:
-        raise ReportError(f"{path}: not JSON: {error}") from error
+    except json.JSONDecodeError as error:
+        raise ReportError(f"{path}: not JSON: it goes wrong, or ends too early, in line {error.lineno}") from error
+    except RecursionError as error:
+        raise ReportError(f"{path}: not JSON: it is nested too deeply") from error
+    except ValueError as error:  # a number of thousands of digits
+        raise ReportError(f"{path}: not JSON: a number has too many digits") from error
     if not isinstance(value, dict):
         raise ReportError(f"{path}: not a JSON object")
     return value

@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include <map>
+#include <utility>
+
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "jobs/job_files.h"
@@ -22,6 +25,47 @@ void open_output(const std::string& path, const std::string& option, std::ofstre
                       "a path in a folder that exists and may be written to"});
 }
 
+namespace {
+
+/// The places of elements in the files, by their lines in the filled text.
+struct FilledPlaces {
+  std::string file;
+  std::map<int, SourceLocation> of_lines;
+
+  const SourceLocation* find(const SourceLocation& where) const {
+    const auto found = where.file == file ? of_lines.find(where.line) : of_lines.end();
+    return found == of_lines.end() ? nullptr : &found->second;
+  }
+};
+
+std::string text_of(const SourceLocation& where) {
+  return where.file + ":" + std::to_string(where.line) + ": ";
+}
+
+/// Loads a text that the user does not see; messages have the lines of the files.
+Problem load_filled(Inputs inputs) {
+  FilledPlaces places{inputs.urdf.name, {}};
+  inputs.urdf.text =
+      write_filled_urdf(inputs.urdf, inputs.overlays, standard_laws(), &places.of_lines);
+  inputs.overlays.clear();
+  try {
+    ProblemContents contents = contents_of(codesign::load(inputs));
+    for (Warning& warning : contents.warnings)
+      if (const SourceLocation* place = places.find(warning.where);
+          place != nullptr && warning.message.rfind(text_of(warning.where), 0) == 0) {
+        warning.message.replace(0, text_of(warning.where).size(), text_of(*place));
+        warning.where = *place;
+      }
+    return ProblemContents::make(std::move(contents));
+  } catch (const InputError& error) {
+    InputFault fault = error.fault();
+    if (const SourceLocation* place = places.find(fault.where)) fault.where = *place;
+    throw InputError(fault);
+  }
+}
+
+}  // namespace
+
 Problem load(const Arguments& arguments, const Console* console) {
   Inputs inputs;
   inputs.urdf = read_source(arguments.model);
@@ -29,11 +73,7 @@ Problem load(const Arguments& arguments, const Console* console) {
   if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
   if (!arguments.result.empty()) inputs.design = read_design(read_source(arguments.result));
   inputs.settings = arguments.settings;
-  if (arguments.fill) {
-    inputs.urdf.text = write_filled_urdf(inputs.urdf, inputs.overlays);
-    inputs.overlays.clear();
-  }
-  Problem problem = codesign::load(inputs);
+  Problem problem = arguments.fill ? load_filled(std::move(inputs)) : codesign::load(inputs);
   if (!arguments.run.empty()) problem = run_of(problem, arguments.run);
   if (console != nullptr && console->loaded != nullptr) console->loaded();
   return problem;

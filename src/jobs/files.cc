@@ -138,7 +138,7 @@ void require_no_input(const std::string& path, const std::string& option, const 
 void make_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path))
+  if (error || !std::filesystem::is_directory(path, error))
     throw InputError({{path, 0},
                       option,
                       "the folder cannot be created",

@@ -159,8 +159,8 @@ JointSamples& samples_of(const std::string& joint, std::vector<JointSamples>* jo
 
 }  // namespace
 
-NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter)
-    : file_(std::move(file)), text_(std::move(text)) {
+NumberTable::NumberTable(std::string file, std::string text, CellDelimiter delimiter, bool has_key)
+    : file_(std::move(file)), text_(std::move(text)), has_key_(has_key) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   if (text_.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
     text_.erase(0, kByteOrderMark.size());
@@ -225,7 +225,11 @@ void NumberTable::for_each_row(const Visit& visit) const {
       fail(number, "",
            "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
                std::to_string(width_),
-           "", "rows of equal length; `delimiter` gives the separator of the cells");
+           "",
+           has_key_
+               ? "rows of equal length; `delimiter` gives the separator of the cells"
+               : "rows of equal length, with cells between tabs, semicolons, commas or blanks as "
+                 "in the first row");
     visit(cells, number);
   }
 }
@@ -300,7 +304,7 @@ int index_of(const ColumnDescription& column, const NumberTable& table) {
 JointRecording read_table_recording(const RecordingDescription& description,
                                     const std::string& path,
                                     const std::vector<std::string>& joints) {
-  const NumberTable table(path, text_of_file(description, path), description.delimiter);
+  const NumberTable table(path, text_of_file(description, path), description.delimiter, true);
   const RecordingDescription found =
       description.time ? description : with_found_columns(description, table, joints);
   std::vector<int> indices = {index_of(*found.time, table)};

@@ -19,8 +19,9 @@ namespace codesign {
 /// has the names, as numpy writes them. Names may be quoted.
 class NumberTable {
  public:
-  /// @param file for messages. @throws InputError if there is no row.
-  NumberTable(std::string file, std::string text, CellDelimiter delimiter);
+  /// @param file for messages. @param has_key whether the study has a key `delimiter` for this
+  /// table, for messages, too. @throws InputError if there is no row.
+  NumberTable(std::string file, std::string text, CellDelimiter delimiter, bool has_key = false);
 
   /// Names of the columns; empty if the table has none.
   const std::vector<std::string>& names() const { return names_; }
@@ -55,6 +56,7 @@ class NumberTable {
 
   std::string file_, text_;
   char delimiter_ = ',';  ///< a blank stands for any white space
+  bool has_key_ = false;
   std::vector<std::string> names_;
   int width_ = 0;
   std::size_t body_ = 0;  ///< index in the text at which the rows begin

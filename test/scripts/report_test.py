@@ -485,7 +485,7 @@ class Report(unittest.TestCase):
         cases = {"tuned.urdf": ((whole["tuned.urdf"][:300], "tuned.urdf:"), (b"", "tuned.urdf:1:"),
                                 (b"<robot name='a'><joint name='b'/></robot>", "tuned.urdf: not a model in URDF")),
                  "tuned.csv": ((b"".join(lines[:3]) + lines[3][:20] + b"\n", "tuned.csv:4: "), (b"".join(lines[:3]) + b"\xff\n", "tuned.csv:4: ")),
-                 "details.json": ((b"[" * 100000, "details.json: not JSON"), (b'{"tuned": 3, "parameters": 4}', "a file of this job is damaged")),
+                 "details.json": ((b"[" * 100000, "details.json: not JSON: it is nested too deeply"), (b'{"a": 1,\n"b": }', "not JSON: it goes wrong, or ends too early, in line 2"), (b'{"tuned": 3, "parameters": 4}', "a file of this job is damaged")),
                  "result.json": ((whole["result.json"][:50], "result.json: not JSON"), (b'{"objective": "x", "gradient": 1}', "is damaged"))}
         for name, damages in cases.items():
             for content, words in damages:
@@ -495,6 +495,7 @@ class Report(unittest.TestCase):
                 self.assertEqual(done.returncode, 2, done.stderr)
                 self.assertIn(words, done.stderr)
                 self.assertNotIn("Traceback", done.stderr)
+                self.assertNotIn("Error", done.stderr)
             with open(self.path("damaged", name), "wb") as file:
                 file.write(whole[name])
 

@@ -135,6 +135,14 @@ RecordedTrajectory read_column(const TrajectoryAddress& address, const FileLoade
                           "not finite",
                           to_decimal(cells.values[k][row]),
                           "finite numbers"});
+  const std::vector<double>& times = cells.values[0];
+  for (std::size_t row = 1; row < times.size(); ++row)
+    if (!(times[row - 1] < times[row]))
+      throw InputError({{source.name, static_cast<int>(cells.lines[row])},
+                        "column \"" + address.time + "\"",
+                        "the times must ascend",
+                        to_decimal(times[row]),
+                        "above " + to_decimal(times[row - 1]) + ", the time before it"});
   return {std::move(cells.values[0]), std::move(cells.values[1]), {}, {}};
 }
 

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,9 +37,11 @@ enum class PlainNumbers { kAsWritten, kFilledIn };
 
 /// The merged URDF as XML, each plain attribute that has a twin filled in at the parameters'
 /// defaults; it may have been missing.
-/// @throws InputError as read_urdf() for everything else.
+/// @param places if not null: of each line of the result that begins an element, where this stands
+/// in the files. @throws InputError as read_urdf() for everything else.
 std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws = standard_laws());
+                              const Laws& laws = standard_laws(),
+                              std::map<int, SourceLocation>* places = nullptr);
 
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws
 /// InputError

@@ -112,11 +112,29 @@ void fill_in_twins(XmlDocument* document) {
   write_twins(document->robot(), "robot", {*document, ParameterTable(parameters), values});
 }
 
+namespace {
+
+/// Walks through a document and its printed text side by side.
+void note_places(const XMLElement* printed, const XMLElement* original, const XmlDocument& document,
+                 std::map<int, SourceLocation>* places) {
+  (*places)[printed->GetLineNum()] = document.location(original);
+  const XMLElement* child = original->FirstChildElement();
+  for (const XMLElement* line = printed->FirstChildElement(); line != nullptr && child != nullptr;
+       line = line->NextSiblingElement(), child = child->NextSiblingElement())
+    note_places(line, child, document, places);
+}
+
+}  // namespace
+
 std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws) {
+                              const Laws& laws, std::map<int, SourceLocation>* places) {
   XmlDocument document = load_annotated_urdf(urdf, overlays, laws, PlainNumbers::kFilledIn);
   read_robot(document, laws);  // with the lines of the files, which the text no longer has
-  return document.text();
+  const std::string text = document.text();
+  if (places == nullptr) return text;
+  const XmlDocument printed({urdf.name, text});
+  note_places(printed.robot(), document.robot(), document, places);
+  return text;
 }
 
 namespace {

@@ -1,8 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/urdf/urdf_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "mechanism/mass_properties.h"
 #include "paths.h"
@@ -188,6 +190,16 @@ TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   const SourceText overlay = {
       "over.xml",
       R"(<robot name="test" xmlns:codesign="urn:x"><joint name="hinge"><origin codesign:xyz="0 0 ${length}"/></joint></robot>)"};
+  std::map<int, SourceLocation> places;
+  write_filled_urdf(
+      pendulum("", "\n\n" + link_with("tip") + joint_with("end", "fixed", "arm", "tip")), {overlay},
+      standard_laws(), &places);
+  EXPECT_EQ(places[1].line, 1);
+  EXPECT_TRUE(std::any_of(places.begin(), places.end(),
+                          [](const auto& place) { return place.second.line == 5; }));
+  EXPECT_TRUE(std::any_of(places.begin(), places.end(), [&overlay](const auto& place) {
+    return place.second.file == overlay.name;
+  }));
   EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).find("xyz=\"0 0 0.2\""), std::string::npos);
   const auto fault_of_filled = [](const std::string& joint) -> std::string {
     try {
