@@ -15,7 +15,6 @@ struct Warning {
                         ///< how to silence the warning
   SourceLocation
       where;  ///< an empty file and line 0 where the warning has no single cause in a file
-  std::string kind = {};  ///< what is doubtful, without place and value; for told_once()
 };
 
 using Warnings = std::vector<Warning>;
@@ -27,9 +26,5 @@ Warning warn(const std::string& code, const InputFault& fault);
 
 /// Appends those warnings of `more` whose pair of code and message `warnings` does not contain yet.
 void append(const Warnings& more, Warnings* warnings);
-
-/// The first warning of each code and kind in each file, with the number of further places and the
-/// last of them, in the order of the first ones. Warnings without a kind stay.
-Warnings told_once(const Warnings& warnings);
 
 }  // namespace codesign

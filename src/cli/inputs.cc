@@ -11,7 +11,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
-#include "reading/urdf/urdf_reader.h"
+#include "reading/urdf/filled_urdf.h"
 
 namespace codesign::cli {
 
@@ -45,8 +45,7 @@ std::string text_of(const SourceLocation& where) {
 /// Loads a text that the user does not see; messages have the lines of the files.
 Problem load_filled(Inputs inputs) {
   FilledPlaces places{inputs.urdf.name, {}};
-  inputs.urdf.text =
-      write_filled_urdf(inputs.urdf, inputs.overlays, standard_laws(), &places.of_lines);
+  inputs.urdf.text = write_filled_urdf(inputs.urdf, inputs.overlays, &places.of_lines);
   inputs.overlays.clear();
   try {
     ProblemContents contents = contents_of(codesign::load(inputs));

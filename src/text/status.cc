@@ -2,9 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "mechanism_codesign/error.h"
@@ -52,7 +50,7 @@ InputError::InputError(InputFault fault)
     : std::runtime_error(describe(shortened(fault))), fault_(shortened(std::move(fault))) {}
 
 Warning warn(const std::string& code, const InputFault& fault) {
-  return {code, InputError(fault).what(), fault.where, fault.message};
+  return {code, InputError(fault).what(), fault.where};
 }
 
 void append(const Warnings& more, Warnings* warnings) {
@@ -60,32 +58,6 @@ void append(const Warnings& more, Warnings* warnings) {
   for (const Warning& warning : *warnings) known.emplace(warning.code, warning.message);
   for (const Warning& warning : more)
     if (known.emplace(warning.code, warning.message).second) warnings->push_back(warning);
-}
-
-Warnings told_once(const Warnings& warnings) {
-  struct Further {
-    int count = 0, last_line = 0;
-  };
-  Warnings first;
-  std::vector<Further> further;
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known;
-  for (const Warning& warning : warnings) {
-    const auto [place, is_new] = known.emplace(
-        std::make_tuple(warning.code, warning.kind, warning.where.file), first.size());
-    if (is_new || warning.kind.empty()) {
-      first.push_back(warning);
-      further.emplace_back();
-      continue;
-    }
-    ++further[place->second].count;
-    further[place->second].last_line = warning.where.line;
-  }
-  for (std::size_t k = 0; k < first.size(); ++k)
-    if (further[k].count > 0)
-      first[k].message += "; the same at " + std::to_string(further[k].count) +
-                          (further[k].count == 1 ? " further place" : " further places") +
-                          " of this file, the last in line " + std::to_string(further[k].last_line);
-  return first;
 }
 
 SourceText read_source(const std::string& path) {

@@ -86,29 +86,6 @@ TEST(SourceText, WhatIsNoFileIsNamed) {
       << "a device without end";
 }
 
-TEST(Warnings, OfOneKindAreToldOncePerFile) {
-  const auto limit = [](const char* file, int line, const char* value) {
-    return warn("limit_ignored", {{file, line}, "<joint>", "it is ignored", value, ""});
-  };
-  const Warnings told = told_once({limit("a", 3, "1"),
-                                   limit("a", 5, "2"),
-                                   limit("b", 7, "3"),
-                                   warn("limit_ignored", {{"a", 8}, "", "it is doubtful", "", ""}),
-                                   limit("a", 9, "4"),
-                                   {"bare", "x", {}},
-                                   {"bare", "y", {}}});
-  std::vector<std::string> messages;
-  for (const Warning& warning : told) messages.push_back(warning.message);
-  EXPECT_EQ(messages,
-            std::vector<std::string>(
-                {"a:3: <joint>: it is ignored (value: 1); the same at 2 further places of "
-                 "this file, the last in line 9",
-                 "b:7: <joint>: it is ignored (value: 3)", "a:8: it is doubtful", "x", "y"}));
-  EXPECT_NE(told_once({limit("a", 3, "1"), limit("a", 5, "2")})[0].message.find(
-                "; the same at 1 further place of this file, the last in line 5"),
-            std::string::npos);
-}
-
 TEST(Status, OnlySuccessIsOk) {
   EXPECT_TRUE(Status().ok());
   EXPECT_FALSE((Status{StatusCode::kCancelled, 0.5, "cancelled"}).ok());

@@ -11,6 +11,7 @@
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/urdf_checks.h"
 #include "reading/urdf/vocabulary.h"
+#include "text/told_once.h"
 
 namespace codesign {
 namespace {

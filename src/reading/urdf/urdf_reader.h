@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,11 +36,9 @@ enum class PlainNumbers { kAsWritten, kFilledIn };
 
 /// The merged URDF as XML, each plain attribute that has a twin filled in at the parameters'
 /// defaults; it may have been missing.
-/// @param places if not null: of each line of the result that begins an element, where this stands
-/// in the files. @throws InputError as read_urdf() for everything else.
+/// @throws InputError as read_urdf() for everything else.
 std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws = standard_laws(),
-                              std::map<int, SourceLocation>* places = nullptr);
+                              const Laws& laws = standard_laws());
 
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws
 /// InputError

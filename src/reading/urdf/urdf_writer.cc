@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/filled_urdf.h"
 #include "reading/urdf/urdf_reader.h"
 
 #include <array>
@@ -127,11 +128,18 @@ void note_places(const XMLElement* printed, const XMLElement* original, const Xm
 }  // namespace
 
 std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws, std::map<int, SourceLocation>* places) {
+                              const Laws& laws) {
   XmlDocument document = load_annotated_urdf(urdf, overlays, laws, PlainNumbers::kFilledIn);
   read_robot(document, laws);  // with the lines of the files, which the text no longer has
+  return document.text();
+}
+
+std::string write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                              std::map<int, SourceLocation>* places) {
+  XmlDocument document =
+      load_annotated_urdf(urdf, overlays, standard_laws(), PlainNumbers::kFilledIn);
+  read_robot(document);
   const std::string text = document.text();
-  if (places == nullptr) return text;
   const XmlDocument printed({urdf.name, text});
   note_places(printed.robot(), document.robot(), document, places);
   return text;

@@ -57,23 +57,17 @@ class Check {
     check_repeats(element, rule, words);
     if (words != nullptr) {
       for (const std::string& attribute : element.attributes())
-        check_attribute(element, attribute, path, *words);
-      for (const XmlElement& child : element.children()) check_child(child, path, rule, *words);
+        check_attribute(element, attribute, *words);
+      for (const XmlElement& child : element.children()) check_child(child, rule, *words);
     }
     for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
   }
 
-  /// Those of one name at one place of the language are of one kind.
   const Warnings& warnings() const { return warnings_; }
 
  private:
-  void note(const std::string& kind, Warning warning) {
-    warning.kind = kind;
-    warnings_.push_back(std::move(warning));
-  }
-
   void check_attribute(const XmlElement& element, const std::string& attribute,
-                       const std::string& path, const Vocabulary& words) {
+                       const Vocabulary& words) {
     if (contains(words.attributes, attribute) || has_prefix(attribute)) return;
     if (element.in_overlay(attribute))
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute,
@@ -81,11 +75,11 @@ class Check {
     if (contains(words.other_attributes, attribute)) return;
     if (const std::string* twin = found(words.repeats, attribute)) {
       if (!same_number(element, attribute, *twin))
-        note(path + " " + attribute,
-             element.warning_at("unknown_attribute", attribute,
-                                "the attribute " + attribute + " is ignored, since " + *twin +
-                                    " counts, which is another number",
-                                "correct " + *twin + ", or remove " + attribute));
+        warnings_.push_back(element.warning_at("unknown_attribute", attribute,
+                                               "the attribute " + attribute +
+                                                   " is ignored, since " + *twin +
+                                                   " counts, which is another number",
+                                               "correct " + *twin + ", or remove " + attribute));
       return;
     }
     const std::string* translation = found(words.translations, attribute);
@@ -94,16 +88,14 @@ class Check {
     const std::string advice = translation    ? *translation + ", or "
                                : near.empty() ? ""
                                               : "write " + near + ", or ";
-    note(
-        path + " " + attribute,
-        element.warning_at("unknown_attribute", attribute,
-                           "the attribute " + attribute +
-                               " is ignored, since no reader of URDF knows it" + did_you_mean(near),
-                           advice + "remove it"));
+    warnings_.push_back(element.warning_at("unknown_attribute", attribute,
+                                           "the attribute " + attribute +
+                                               " is ignored, since no reader of URDF knows it" +
+                                               did_you_mean(near),
+                                           advice + "remove it"));
   }
 
-  void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule,
-                   const Vocabulary& words) {
+  void check_child(const XmlElement& child, const ElementRule* rule, const Vocabulary& words) {
     const std::string tag = child.tag();
     if (contains(words.children, tag) || is_ours(tag)) return;
     Names known = words.children;
@@ -116,17 +108,16 @@ class Check {
                         list_names(known)});
     if (has_prefix(tag) || contains(words.other_children, tag)) return;
     if (const Names places = elements_with(tag); !places.empty()) {
-      note(path + "/" + tag,
-           child.warning("unknown_element", "the element does not belong here and is ignored",
-                         "<" + tag + ">", "move it into " + list_names(places) + ", or remove it"));
+      warnings_.push_back(
+          child.warning("unknown_element", "the element does not belong here and is ignored",
+                        "<" + tag + ">", "move it into " + list_names(places) + ", or remove it"));
       return;
     }
     if (near.empty()) return;
-    note(path + "/" + tag,
-         child.warning("unknown_element",
-                       "the element is ignored, since no reader of URDF knows it, did you mean \"" +
-                           near + "\"?",
-                       "<" + tag + ">", "write <" + near + ">, or remove it"));
+    warnings_.push_back(child.warning(
+        "unknown_element",
+        "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
+        "<" + tag + ">", "write <" + near + ">, or remove it"));
   }
 
   void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) {
@@ -142,10 +133,10 @@ class Check {
       if (strict || ((single || inertial) && child.in_overlay()))
         child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
-        note(element.tag() + "/" + tag,
-             child.warning("repeated_element",
-                           "a second <" + tag + ">; the first one is used, as other readers do", "",
-                           "remove one"));
+        warnings_.push_back(
+            child.warning("repeated_element",
+                          "a second <" + tag + ">; the first one is used, as other readers do", "",
+                          "remove one"));
     }
   }
 

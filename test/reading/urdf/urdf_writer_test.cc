@@ -8,6 +8,7 @@
 
 #include "mechanism/mass_properties.h"
 #include "paths.h"
+#include "reading/urdf/filled_urdf.h"
 #include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
@@ -193,7 +194,7 @@ TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   std::map<int, SourceLocation> places;
   write_filled_urdf(
       pendulum("", "\n\n" + link_with("tip") + joint_with("end", "fixed", "arm", "tip")), {overlay},
-      standard_laws(), &places);
+      &places);
   EXPECT_EQ(places[1].line, 1);
   EXPECT_TRUE(std::any_of(places.begin(), places.end(),
                           [](const auto& place) { return place.second.line == 5; }));
