@@ -15,6 +15,10 @@
 namespace codesign {
 namespace {
 
+constexpr const char* kRowsByKey =
+    "rows of equal length; `delimiter` gives the separator of the cells";
+constexpr const char* kRows = "rows of equal length, with the separator of the first row";
+
 constexpr std::string_view kBlanks = " \t\r";
 
 std::string_view trimmed(std::string_view text) {
@@ -225,11 +229,7 @@ void NumberTable::for_each_row(const Visit& visit) const {
       fail(number, "",
            "a row of " + std::to_string(cells.size()) + " cells, where the first has " +
                std::to_string(width_),
-           "",
-           has_key_
-               ? "rows of equal length; `delimiter` gives the separator of the cells"
-               : "rows of equal length, with cells between tabs, semicolons, commas or blanks as "
-                 "in the first row");
+           "", has_key_ ? kRowsByKey : kRows);
     visit(cells, number);
   }
 }
