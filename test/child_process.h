@@ -28,7 +28,6 @@ class ChildProcess {
     dup2(open(output.c_str(), O_WRONLY | O_CREAT, 0666), 1);
     dup2(open(error.c_str(), O_WRONLY | O_CREAT, 0666), 2);
     if (file_size > 0) {
-      std::signal(SIGXFSZ, SIG_IGN);
       const rlimit limit{file_size, file_size};
       setrlimit(RLIMIT_FSIZE, &limit);
     }

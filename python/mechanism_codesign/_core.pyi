@@ -47,6 +47,7 @@ class Session:
     names: List[str]
     name: str
     duration: float
+    extent: Tuple[float, int, bool, int, int, bool]
     start: Array
     signals: List[str]
     warnings: List[Dict[str, Any]]

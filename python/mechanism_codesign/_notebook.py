@@ -57,9 +57,18 @@ def _outcome(of: Any) -> str:
     return escape(str(of.status) if of.termination == of.status.code else f"{of.status}, {of.termination}")
 
 
-def problem(name: str, of: Any) -> str:
+def extent(duration: float, postures: int, may_end_before: bool, runs: int, samples: int, is_uncertain: bool) -> str:
+    """What a study computes, in words: `2 s`, `at most 5 s`, `3 postures`, `2 runs of 2 s, 32 samples of each`."""
+    if postures == 0 and duration == 0.0:
+        return "no study"
+    each = f"{postures} posture{'' if postures == 1 else 's'}" if postures else f"{'at most ' if may_end_before else ''}{duration:g} s"
+    words = f"{runs} runs of {each}" if runs > 1 else each
+    return words + (f", {samples} samples{' of each' if runs > 1 else ''}" if is_uncertain else "")
+
+
+def problem(name: str, extent_: str, of: Any) -> str:
     rows = [(p.name, p.value, p.lower, p.upper, p.unit, "tuned" if p.tuned else "") for p in of.parameters]
-    return f"<p><b>{escape(name)}</b>, {of.duration:g} s</p>" + _table(("parameter", "value", "lower", "upper", "unit", ""), rows) + _notes(of.warnings)
+    return f"<p><b>{escape(name)}</b>, {escape(extent_)}</p>" + _table(("parameter", "value", "lower", "upper", "unit", ""), rows) + _notes(of.warnings)
 
 
 def run(of: Any) -> str:

@@ -126,7 +126,7 @@ class Problem:
 
     @property
     def duration(self) -> float:
-        """Of the study [s]."""
+        """Of the study [s]; with `positions` the number of the last posture, counted from 0."""
         return self._core.duration
 
     @property
@@ -259,10 +259,10 @@ class Problem:
         return Fit(self._core.identify(time, table, None if progress is None else tell, _event(cancel)))
 
     def __repr__(self) -> str:
-        return f"<Problem {self._core.name}: {self.duration:g} s, {len(self.names)} tuned parameters>"
+        return f"<Problem {self._core.name}: {_notebook.extent(*self._core.extent)}, {len(self.names)} tuned parameters>"
 
     def _repr_html_(self) -> str:
-        return _notebook.problem(self._core.name, self)
+        return _notebook.problem(self._core.name, _notebook.extent(*self._core.extent), self)
 
 
 def _event(cancel: Optional[Event]) -> Optional[Event]:

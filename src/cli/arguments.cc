@@ -94,14 +94,17 @@ Names command_names();
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
+  static const Names kOfDesigns = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
+                                   "gradient", "optimize", "identify", "excite"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
         {},
         [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
-      {"--set", {Value::kRequired, {}, add_setting}},
+      {"--set", {Value::kRequired, kOfDesigns, add_setting}},
       {"--result",
-       {Value::kRequired, {}, [](const std::string& text, Arguments* to) { to->result = text; }}},
+       {Value::kRequired, kOfDesigns,
+        [](const std::string& text, Arguments* to) { to->result = text; }}},
       {"--json", {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->json = true; }}},
       {"--quiet",
        {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->quiet = true; }}},
@@ -175,12 +178,18 @@ std::size_t apply_option(const Names& words, std::size_t i, Arguments* arguments
 void take_positional(const std::string& word, Arguments* arguments) {
   if (arguments->model.empty())
     arguments->model = word;
-  else if (arguments->study.empty() && arguments->command != "new")
+  else if (arguments->study.empty() && arguments->command != "new" &&
+           arguments->command != "overlay")
     arguments->study = word;
   else if (arguments->command == "new")
     throw UsageError(
         "unexpected \"" + word +
         "\" after the name of the folder; a name with spaces stands in quotation marks");
+  else if (arguments->command == "overlay")
+    throw UsageError(
+        "unexpected \"" + word +
+        "\" after the model; a starting overlay needs no study, and a path with spaces "
+        "stands in quotation marks");
   else
     throw UsageError(
         "unexpected \"" + word +
@@ -209,6 +218,10 @@ const CommandHelp kCommands[] = {
     --sticks               for viewers: links without <visual>, or whose meshes are not here,
                            get sticks and spheres
     --fill                 first write each plain number that an expression beside it gives
+)"},
+    {"overlay",
+     R"(  overlay MODEL            an overlay to begin with: what a vendor's URDF does not say (base, masses,
+                           rotors, gears, friction), with a line for each number to fill in
 )"},
     {"simulate", R"(  simulate MODEL STUDY     one run as CSV
     --signals A,B          the signals to print; by default of all joints, frictions, controllers
@@ -325,7 +338,9 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
   if (arguments.command == "new") return arguments;
   if (arguments.model.empty())
     throw UsageError("\"" + arguments.command + "\" needs a MODEL, the path of a URDF file");
-  if (arguments.study.empty() && arguments.command != "check" && arguments.command != "urdf")
+  const bool needs_study =
+      arguments.command != "check" && arguments.command != "urdf" && arguments.command != "overlay";
+  if (arguments.study.empty() && needs_study)
     throw UsageError("\"" + arguments.command +
                      "\" needs a STUDY, the path of a YAML file, after the MODEL");
   return arguments;
@@ -337,6 +352,9 @@ std::string usage(const std::string& command) {
   if (one != std::end(kCommands)) {
     if (command == "new")
       return "usage: codesign new [NAME --from MACHINE] [--json] [--quiet]\n\n" + one->text;
+    if (command == "overlay")
+      return "usage: codesign overlay MODEL [--overlay FILE] [--json] [--quiet]\n\n" + one->text +
+             "    --overlay FILE         what it gives is not asked for again; may be repeated\n";
     const bool is_for_jobs = command == "report" || command == "apply";
     const std::string head =
         "usage: codesign " + command +

@@ -20,8 +20,8 @@ class UsageError : public std::runtime_error {
 /// name their command.
 struct Arguments {
   std::string topic;    ///< help; the command that it is about, empty: all
-  std::string command;  ///< check, urdf, simulate, efforts, equilibrium, gradient, optimize,
-                        ///< identify, excite, new, help or version
+  std::string command;  ///< check, urdf, overlay, simulate, efforts, equilibrium, gradient,
+                        ///< optimize, identify, excite, new, help or version
   std::string model;    ///< path; new: of the folder to be made, empty: the machines are listed
   std::string study;    ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order

@@ -13,6 +13,7 @@
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
+#include "reading/urdf/starting_overlay.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/table.h"
 
@@ -112,6 +113,21 @@ int urdf(const Arguments& arguments, const Console& console) {
   object["parameters"] = parameters_json(problem, problem.parameters());
   object["urdf"] = text;
   add_warnings(arguments, problem, {}, &object, console);
+  return finish(arguments, Status(), std::move(object), console);
+}
+
+int overlay(const Arguments& arguments, const Console& console) {
+  const SourceText model = read_source(arguments.model);
+  std::vector<SourceText> overlays;
+  for (const std::string& path : arguments.overlays) overlays.push_back(read_source(path));
+  const RobotDescription robot = read_urdf(model, overlays);
+  const std::string text = starting_overlay(model, overlays);
+  if (!arguments.json) console.out << text;
+  print_warnings(arguments, robot.warnings, console);
+  Json object;
+  object["model"] = robot.name;
+  object["overlay"] = text;
+  object["warnings"] = to_json(robot.warnings);
   return finish(arguments, Status(), std::move(object), console);
 }
 

@@ -16,6 +16,7 @@ int simulate(const Arguments& arguments, const Console& console);
 int efforts(const Arguments& arguments, const Console& console);
 int equilibrium(const Arguments& arguments, const Console& console);
 int urdf(const Arguments& arguments, const Console& console);
+int overlay(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);
 int identify(const Arguments& arguments, const Console& console);

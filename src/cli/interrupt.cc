@@ -31,6 +31,8 @@ extern "C" void on_interrupt(int signal_number) {
 void watch_interrupts() {
   std::signal(SIGINT, leave);
   std::signal(SIGTERM, leave);
+  // A file that becomes larger than the limit (ulimit -f) is an error of the write, as a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 void keep_results() {

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 
 #include "cli/commands.h"
 #include "cli/inputs.h"
@@ -85,7 +86,9 @@ int start_project(const Arguments& arguments, const std::string& gallery, const 
   if (std::count(known.begin(), known.end(), arguments.from) == 0)
     throw unknown_name({}, "--from", "machine", arguments.from, known);
   const fs::path folder = arguments.model, machine = fs::path(gallery) / arguments.from;
-  if (fs::exists(fs::symlink_status(folder)))
+  // A name that the system does not take, such as one of 300 bytes, is refused by make_folder().
+  std::error_code unknown;
+  if (fs::exists(fs::symlink_status(folder, unknown)))
     throw InputError({{arguments.model, 0},
                       "",
                       "this already exists, and codesign new does not overwrite anything",

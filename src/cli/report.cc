@@ -10,14 +10,18 @@ std::ostream& progress_of(const Arguments& arguments, const Console& console) {
   return arguments.quiet ? nothing : console.err;
 }
 
-void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run,
-                  Json* object, const Console& console) {
-  Warnings warnings = problem.warnings();
-  append(of_run, &warnings);
+void print_warnings(const Arguments& arguments, const Warnings& warnings, const Console& console) {
   for (const Warning& warning : warnings)
     console.err << "codesign " << arguments.command << ": warning [" << warning.code
                 << "]: " << warning.message << '\n';
   console.err.flush();
+}
+
+void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run,
+                  Json* object, const Console& console) {
+  Warnings warnings = problem.warnings();
+  append(of_run, &warnings);
+  print_warnings(arguments, warnings, console);
   (*object)["setup_seconds"] = problem.setup_seconds();
   (*object)["warnings"] = to_json(warnings);
 }

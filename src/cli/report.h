@@ -20,7 +20,10 @@ inline void print(const Json& object, std::ostream& out) { out << to_text(object
 /// The stream for progress: the error stream, or with --quiet one that drops everything.
 std::ostream& progress_of(const Arguments& arguments, const Console& console);
 
-/// Writes each warning with its code as a line to the error stream and all of them to `warnings` of
+/// Writes each warning with its code as a line to the error stream.
+void print_warnings(const Arguments& arguments, const Warnings& warnings, const Console& console);
+
+/// print_warnings() of all warnings of the problem, and writes all of them to `warnings` of
 /// `object`; also sets its `setup_seconds`.
 /// @param of_run warnings of the run, in addition to the warnings of the input files.
 void add_warnings(const Arguments& arguments, const Problem& problem, const Warnings& of_run,

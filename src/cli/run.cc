@@ -20,6 +20,7 @@ namespace {
 int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "check") return check(arguments, console);
   if (arguments.command == "urdf") return urdf(arguments, console);
+  if (arguments.command == "overlay") return overlay(arguments, console);
   if (arguments.command == "simulate") return simulate(arguments, console);
   if (arguments.command == "efforts") return efforts(arguments, console);
   if (arguments.command == "equilibrium") return equilibrium(arguments, console);

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -33,17 +32,82 @@ OutputError OutputError::of_system(const std::string& path, int number) {
                      number == 0 ? "a write failed" : std::generic_category().message(number));
 }
 
-void write_whole_file(const std::string& path, const std::string& text) {
-  const std::string part = path + kPartSuffix;
-  errno = 0;
-  std::ofstream file(part, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file || std::rename(part.c_str(), path.c_str()) != 0) {
-    const int cause = errno;
-    unlink(part.c_str());
-    throw OutputError::of_system(path, cause);
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file that is being written.
+class Descriptor {
+ public:
+  Descriptor(const std::string& path, int flags, mode_t mode)
+      : number_(open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, mode)) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
   }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  /// Writes all of the text and closes. @returns errno of what failed; 0: nothing has
+  int write_all(const std::string& text) {
+    if (number_ < 0) return errno;
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t written = write(number_, text.data() + done, text.size() - done);
+      if (written < 0 && errno != EINTR) return errno;
+      if (written > 0) done += static_cast<std::size_t>(written);
+    }
+    return close(std::exchange(number_, -1)) == 0 ? 0 : errno;
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// The path to which links lead, also where nothing stands there.
+std::string end_of_links(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as the system follows
+  fs::path place = path;
+  std::error_code error;
+  for (int k = 0; k < kMostLinks && fs::is_symlink(place, error); ++k) {
+    const fs::path target = fs::read_symlink(place, error);
+    if (error) break;
+    place = target.is_absolute() ? target : place.parent_path() / target;
+  }
+  return place.string();
+}
+
+/// Whether bytes go straight to what stands at a path: a device, a FIFO, or a stream that a shell
+/// has opened, such as /dev/stdout, which may lead to a file.
+bool is_stream(const std::string& path, const struct stat& there) {
+  if (!S_ISREG(there.st_mode)) return true;
+  std::error_code error;
+  const std::string folder =
+      fs::weakly_canonical(fs::path(path).parent_path(), error).string() + "/";
+  return folder.rfind("/dev/", 0) == 0 || folder.rfind("/proc/", 0) == 0;
+}
+
+}  // namespace
+
+void write_whole_file(const std::string& path, const std::string& text) {
+  struct stat there {};
+  const bool exists = stat(path.c_str(), &there) == 0;
+  if (!exists && errno == ELOOP) throw OutputError::of_system(path, ELOOP);
+  if (exists && S_ISDIR(there.st_mode)) throw OutputError::of_system(path, EISDIR);
+  if (exists && is_stream(path, there)) {
+    if (const int fault = Descriptor(path, 0, kMode).write_all(text); fault != 0)
+      throw OutputError::of_system(path, fault);
+    return;
+  }
+  const std::string place = end_of_links(path), part = place + kPartSuffix;
+  unlink(part.c_str());  // of a killed process
+  Descriptor file(part, O_CREAT | O_EXCL, kMode);
+  int fault = file.number() < 0 ? errno : 0;
+  if (fault == 0 && exists && fchmod(file.number(), there.st_mode & 07777) != 0) fault = errno;
+  if (fault == 0) fault = file.write_all(text);
+  if (fault == 0 && std::rename(part.c_str(), place.c_str()) != 0) fault = errno;
+  if (fault == 0) return;
+  unlink(part.c_str());
+  throw OutputError::of_system(path, fault);
 }
 
 void give_final_name(const std::string& active, const std::string& path) {
@@ -74,7 +138,7 @@ void require_no_input(const std::string& path, const std::string& option, const 
 void make_folder(const std::string& path, const std::string& option) {
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path))
+  if (error || !std::filesystem::is_directory(path, error))
     throw InputError({{path, 0},
                       option,
                       "the folder cannot be created",

@@ -31,9 +31,11 @@ class OutputError : public std::runtime_error {
 /// Suffix of a file that write_whole_file() has not finished.
 inline constexpr const char* kPartSuffix = ".part";
 
-/// Writes `path`.part and renames it to `path` when it is complete, so that `path` is never
-/// half-written, even if the process is killed. An existing `path` is replaced. @throws OutputError
-/// if that fails; `path`.part is removed then.
+/// Writes an output that a user names. A file is written beside itself, with kPartSuffix, and
+/// renamed when it is complete, so that it is never half-written, even if the process is killed; an
+/// existing one is replaced and keeps its permissions. A link stays, and the file that it leads to
+/// is replaced. Devices, FIFOs and streams such as /dev/stdout stay what they are and get the text.
+/// @throws OutputError if that fails, and for a folder; the former file is there then, and no part.
 void write_whole_file(const std::string& path, const std::string& text);
 
 /// Renames the finished file `active` to `path`, which must not exist. @throws OutputError if it

@@ -79,7 +79,8 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 void require_journal(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path))
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(path, unknown))
     throw InputError({{path, 0},
                       "",
                       "there is no journal to resume",

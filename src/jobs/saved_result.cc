@@ -279,7 +279,8 @@ std::string folder_of_job(const std::string& path) {
 FinishedJob read_finished_job(const std::string& path, const TrajectoryLoader& loader,
                               const std::atomic<bool>* cancel) {
   const std::string folder = folder_of_job(path);
-  if (!std::filesystem::is_directory(folder))
+  std::error_code unknown;
+  if (!std::filesystem::is_directory(folder, unknown))
     throw InputError({{folder, 0},
                       "",
                       "no such folder",

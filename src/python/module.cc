@@ -266,6 +266,15 @@ void add_jobs(py::module_* module) {
       });
 }
 
+/// (duration [s], number of postures, whether a run may end before, number of runs, samples of
+/// each, whether something is uncertain)
+py::tuple extent(const Session& session) {
+  const Study& study = study_of(session.problem());
+  return py::make_tuple(study.duration, study.postures, has_moving_end(study),
+                        std::max<std::size_t>(1, study.ensemble.runs.size()),
+                        study.ensemble.robust_options().samples, !study.ensemble.uncertain.empty());
+}
+
 void add_session(py::module_* module) {
   made_here<RunNotes>(module, "RunNotes").def("record", &RunNotes::record);
   made_here<Session>(module, "Session")
@@ -275,6 +284,7 @@ void add_session(py::module_* module) {
                              [](const Session& of) { return to_list(of.problem().tuned_names()); })
       .def_property_readonly("name", [](const Session& of) { return robot_of(of.problem()).name; })
       .def_property_readonly("duration", [](const Session& of) { return of.problem().duration(); })
+      .def_property_readonly("extent", &extent)
       .def_property_readonly("start",
                              [](const Session& of) { return to_array(of.problem().start()); })
       .def_property_readonly(

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "cli/slider_crank.h"
 #include "integration/mechanisms.h"
 #include "jobs/json.h"
@@ -107,6 +109,41 @@ TEST(UrdfCommand, DrawsLinksThatHaveNoVisualIfAskedTo) {
   EXPECT_NE(run_words({"urdf", bare, "--sticks"}).out.find("<cylinder"), std::string::npos);
   EXPECT_EQ(run_words({"urdf", kModel, "--sticks"}).out, run_words({"urdf", kModel}).out)
       << "each link has a visual";
+}
+
+TEST(OverlayCommand, PrintsAnOverlayForTheFileThatCheckTakes) {
+  const ScratchFolder folder;
+  const std::string model = shipped("urdf/vendor_arm.urdf"), notes = folder.path("notes.urdf");
+  const Outcome outcome = run_words({"overlay", model});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  std::ofstream(notes) << outcome.out;
+  EXPECT_EQ(run_words({"check", model, "--overlay", notes}).code, kDone);
+  const Json object = json_of(run_words({"overlay", model, "--json"}));
+  EXPECT_EQ(object["overlay"], outcome.out);
+  EXPECT_EQ(json_of(run_words({"overlay", model, "--overlay", notes, "--json"}))["model"],
+            object["model"]);
+}
+
+TEST(OverlayCommand, AFreeBodyFliesByIt) {
+  const ScratchFolder folder;
+  const std::string model = folder.path("drone.urdf"), notes = folder.path("notes.urdf");
+  std::ofstream(model)
+      << "<robot name='drone'><link name='body'><inertial><mass value='0.03'/><inertia ixx='1e-5' "
+         "ixy='0' ixz='0' iyy='1e-5' iyz='0' izz='2e-5'/></inertial></link></robot>";
+  std::ofstream(notes) << run_words({"overlay", model}).out;
+  const Outcome outcome = run_words({"check", model, "--overlay", notes, "--json"});
+  ASSERT_EQ(outcome.code, kDone) << outcome.err;
+  EXPECT_EQ(json_of(outcome)["counts"]["degrees_of_freedom"], 6);
+}
+
+TEST(OverlayCommand, RefusesWhatItDoesNotRead) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"overlay", kModel, kStudy},
+                                                {"overlay", kModel, "--set", "crank_length=0.1"},
+                                                {"overlay"}}) {
+    const Outcome outcome = run_words(words);
+    EXPECT_EQ(outcome.code, kBadInput);
+    EXPECT_NE(outcome.err.find("usage: codesign overlay MODEL"), std::string::npos) << outcome.err;
+  }
 }
 
 }  // namespace

@@ -151,5 +151,26 @@ TEST(UrdfCommand, FillsInPlainNumbers) {
   EXPECT_NE(set.out.find(" damping=\"2\""), std::string::npos) << set.out;
 }
 
+TEST(UrdfCommand, FaultsAndWarningsOfWhatIsFilledInHaveTheLinesOfTheFile) {
+  const ScratchFolder folder;
+  const auto model = [&folder](const char* name, const char* izz) {
+    std::ofstream(folder.path(name))
+        << "<robot name='r' xmlns:codesign='urn:mechanism_codesign'>\n<codesign:parameter name='L' "
+           "value='1'/>\n\n\n<link name='g'/>\n\n<link name='a'><inertial><origin codesign:xyz='0 "
+           "0 ${L}'/><mass value='1'/>\n<inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='"
+        << izz
+        << "'/></inertial></link>\n<joint name='j' type='continuous'><parent link='g'/><child "
+           "link='a'/><axis xyz='0 0 1'/></joint></robot>";
+    return folder.path(name);
+  };
+  const Outcome fault = run_words({"urdf", model("fault.urdf", "0"), "--fill"});
+  EXPECT_EQ(fault.code, kBadInput);
+  EXPECT_NE(fault.err.find("fault.urdf:7: <link name=\"a\">"), std::string::npos) << fault.err;
+  const Outcome warning = run_words({"urdf", model("warning.urdf", "0.5"), "--fill"});
+  ASSERT_EQ(warning.code, kDone) << warning.err;
+  EXPECT_NE(warning.err.find("triangle_inequality"), std::string::npos) << warning.err;
+  EXPECT_NE(warning.err.find("warning.urdf:7: "), std::string::npos) << warning.err;
+}
+
 }  // namespace
 }  // namespace codesign::cli

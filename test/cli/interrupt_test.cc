@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
+#include <cstdlib>
 
 namespace codesign::cli {
 namespace {
@@ -24,6 +25,16 @@ TEST(Interrupt, TheFirstSetsTheFlagAndTheSecondEndsTheProgram) {
   std::raise(SIGINT);
   EXPECT_TRUE(interrupted());
   EXPECT_EXIT(std::raise(SIGINT), testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(Interrupt, ALimitOfFileSizesIsLeftToTheWrite) {
+  EXPECT_EXIT(
+      {
+        watch_interrupts();
+        std::raise(SIGXFSZ);
+        std::_Exit(0);
+      },
+      testing::ExitedWithCode(0), "");
 }
 
 }  // namespace

@@ -104,6 +104,11 @@ TEST_F(NewCommand, ReplacesNothing) {
                  "codesign new does not overwrite anything");
 }
 
+TEST_F(NewCommand, RefusesANameThatTheSystemDoesNotTake) {
+  expect_refused({"new", folder_.path(std::string(300, 'a')), "--from", "press"},
+                 "the folder cannot be created");
+}
+
 TEST_F(NewCommand, HasItsOwnOptions) {
   EXPECT_EQ(parse_arguments({"new", "mine", "--from=press"}).from, "press");
   EXPECT_THROW(parse_arguments({"new", "mine", "press"}), UsageError);

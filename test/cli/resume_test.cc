@@ -64,6 +64,28 @@ TEST_F(Resume, KilledTwentyTimesNothingIsLostOrComputedTwice) {
     EXPECT_EQ(read_text_file(in("killed", name)), read_text_file(in("whole", name))) << name;
 }
 
+TEST_F(Resume, EventsAndEndsOfRunsAreThoseOfTheWholeJob) {
+  study_ = resumable_study(
+      folder_,
+      "engine: {workers: 2}\nuntil: \"${crank_joint/position < -0.8}\"\n"
+      "loads: [{joint: crank_joint, effort: \"${crank_joint/position < -0.4 ? 0.5 : 0.0}\"}]\n");
+  ASSERT_EQ(ChildProcess(job("--output", "whole")).wait(), kDone);
+  const std::size_t all = finished_lines(in("whole", "journal.jsonl")).size();
+  const std::string journal = in("killed", "journal.jsonl");
+  for (const std::size_t share : {4U, 2U}) {
+    ChildProcess process(job(share == 4U ? "--output" : "--resume", "killed"));
+    ASSERT_TRUE(comes_true([&] { return finished_lines(journal).size() >= all / share; }));
+    process.send(SIGKILL);
+    process.wait();
+  }
+  ASSERT_EQ(ChildProcess(job("--resume", "killed")).wait(), kDone);
+  const Json whole = Json::parse(read_text_file(in("whole", "result.json")));
+  EXPECT_GT(whole["event_count"], 0);
+  EXPECT_EQ(without_times(Json::parse(read_text_file(in("killed", "result.json")))),
+            without_times(whole));
+  EXPECT_TRUE(evaluations_of(journal) == evaluations_of(in("whole", "journal.jsonl")));
+}
+
 TEST_F(Resume, AFinishedJobIsAnsweredFromItsJournal) {
   study_ = short_study(folder_);
   ASSERT_EQ(ChildProcess(job("--output", "job")).wait(), kDone);

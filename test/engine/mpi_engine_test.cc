@@ -26,6 +26,11 @@ void expect_the_same(const std::vector<Evaluation>& a, const std::vector<Evaluat
     EXPECT_EQ(a[k].objective, b[k].objective);
     EXPECT_EQ(a[k].gradient, b[k].gradient);
     EXPECT_EQ(a[k].statistics.energy_error, b[k].statistics.energy_error);
+    EXPECT_EQ(a[k].events.count, b[k].events.count);
+    EXPECT_EQ(a[k].events.order, b[k].events.order);
+    ASSERT_EQ(a[k].events.list.size(), b[k].events.list.size());
+    for (std::size_t e = 0; e < a[k].events.list.size(); ++e)
+      EXPECT_EQ(a[k].events.list[e].time, b[k].events.list[e].time);
   }
 }
 
@@ -50,6 +55,22 @@ TEST(MpiEngine, AnyNumberOfRanksGivesTheSameBits) {
     expect_the_same(engine.evaluate(all, nullptr), expected);
     expect_the_same(engine.evaluate(all, nullptr), expected);
     EXPECT_TRUE(engine.evaluate({}, nullptr).empty());
+  }
+}
+
+TEST(MpiEngine, EventsAndEndsOfRunsAreTheSameByThreadsAndRanks) {
+  const Problem problem = block(
+      "loads: [{joint: slide, effort: \"${slide/position > 0.2 ? -3.0 : 0.0}\"}]\n"
+      "until: \"${slide/velocity < 0.3}\"\n");
+  const std::vector<EvaluationTask> all = block_tasks(problem, 11);
+  const std::vector<Evaluation> expected = SerialEngine().evaluate(all, nullptr);
+  EXPECT_GT(expected.front().events.count, 0);
+  for (const int workers : {2, 3}) {
+    ThreadEngine threads(workers);
+    expect_the_same(threads.evaluate(all, nullptr), expected);
+    RankJob job(workers);
+    MpiEngine ranks(job.ranks(), problem);
+    expect_the_same(ranks.evaluate(all, nullptr), expected);
   }
 }
 

@@ -1,5 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 
@@ -34,15 +41,96 @@ TEST(WholeFile, NamesPathAndCause) {
   }
 }
 
+/// As if the disk were full beyond so many bytes of a file.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+std::size_t entries(const std::filesystem::path& folder) {
+  return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
 TEST(WholeFile, AFullDiskLeavesTheOldFileAndNoPart) {
   const TemporaryDirectory directory;
   const std::string path = (directory.path() / "a").string();
   write_whole_file(path, "old");
-  // A part that is a link to a full device stands for a full disk.
-  std::filesystem::create_symlink("/dev/full", path + kPartSuffix);
-  EXPECT_THROW(write_whole_file(path, "new"), OutputError);
+  {
+    const FullDisk full(8192);
+    EXPECT_THROW(write_whole_file(path, std::string(100000, 'x')), OutputError);
+    EXPECT_THROW(write_whole_file(path + "_new", std::string(100000, 'x')), OutputError);
+  }
   EXPECT_EQ(content(path), "old");
-  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(path + kPartSuffix)));
+  EXPECT_EQ(entries(directory.path()), 1U);
+}
+
+TEST(WholeFile, APartOfAKilledProcessIsNotFollowed) {
+  const TemporaryDirectory directory;
+  const std::string path = (directory.path() / "a").string(),
+                    other = (directory.path() / "other").string();
+  write_whole_file(other, "other");
+  std::filesystem::create_symlink(other, path + kPartSuffix);
+  write_whole_file(path, "new");
+  EXPECT_EQ(content(path), "new");
+  EXPECT_EQ(content(other), "other");
+}
+
+TEST(WholeFile, LinksStayAndTheirFilesAreReplaced) {
+  const TemporaryDirectory directory;
+  const auto in_folder = [&](const char* name) { return (directory.path() / name).string(); };
+  std::filesystem::create_directory(in_folder("deeper"));
+  write_whole_file(in_folder("deeper/file"), "old");
+  std::filesystem::permissions(in_folder("deeper/file"), std::filesystem::perms(0640));
+  // Relative, and over a second link; the last one leads to a file that is not there yet.
+  std::filesystem::create_symlink("deeper/file", in_folder("first"));
+  std::filesystem::create_symlink(in_folder("first"), in_folder("second"));
+  std::filesystem::create_symlink("deeper/missing", in_folder("third"));
+  write_whole_file(in_folder("second"), "new");
+  write_whole_file(in_folder("third"), "made");
+  EXPECT_EQ(content(in_folder("deeper/file")), "new");
+  EXPECT_EQ(std::filesystem::status(in_folder("deeper/file")).permissions(),
+            std::filesystem::perms(0640));
+  EXPECT_EQ(content(in_folder("deeper/missing")), "made");
+  for (const char* link : {"first", "second", "third"})
+    EXPECT_TRUE(std::filesystem::is_symlink(in_folder(link))) << link;
+  std::filesystem::create_symlink(in_folder("ring"), in_folder("ring"));
+  EXPECT_THROW(write_whole_file(in_folder("ring"), "x"), OutputError);
+}
+
+TEST(WholeFile, DevicesAndFifosGetTheText) {
+  const TemporaryDirectory directory;
+  const auto in_folder = [&](const char* name) { return (directory.path() / name).string(); };
+  // By a link, since a program that does otherwise would take the machine's device away.
+  std::filesystem::create_symlink("/dev/null", in_folder("null"));
+  std::filesystem::create_symlink("/dev/full", in_folder("full"));
+  write_whole_file(in_folder("null"), "x");
+  EXPECT_THROW(write_whole_file(in_folder("full"), "x"), OutputError);
+  EXPECT_TRUE(std::filesystem::is_symlink(in_folder("null")));
+  ASSERT_EQ(mkfifo(in_folder("fifo").c_str(), 0600), 0);
+  const int reader = open(in_folder("fifo").c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  write_whole_file(in_folder("fifo"), "through");
+  std::array<char, 16> bytes{};
+  EXPECT_EQ(read(reader, bytes.data(), bytes.size()), 7);
+  EXPECT_STREQ(bytes.data(), "through");
+  close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(in_folder("fifo")));
+  EXPECT_THROW(write_whole_file(directory.path().string(), "x"), OutputError) << "a folder";
+  EXPECT_EQ(entries(directory.path()), 3U) << "no part of a file";
 }
 
 TEST(MakeFolder, MakesWhatIsMissingAbove) {

@@ -27,6 +27,17 @@ class Notebook(unittest.TestCase):
         html = codesign.Problem(PENDULUM, SWING)._repr_html_()
         self.assertEqual(cells(html)[:6], ["length", "0.5", "0.3", "0.8", "m", "tuned"])
 
+    def test_a_problem_says_what_it_computes(self):
+        postures = "positions: {pivot: [0.0, 0.5, 1.0]}\n"
+        runs, uncertain = "runs: {near: {initial_state: {pivot: {position: 0.5}}}, far: {}}\n", "uncertain: {length: {normal: [0.5, 0.01]}}\nrobust: {samples: 8}\n"
+        untuned = SWING.replace("parameters: {length: {}}\n", "")
+        for study, words in ((SWING, "2 s"), (postures, "3 postures"), ("positions: {pivot: [0.5]}\n", "1 posture"), (SWING + runs, "2 runs of 2 s"),
+                             (SWING + 'until: "pivot/velocity > 0"\n', "at most 2 s"), (None, "no study"),
+                             (untuned + uncertain, "2 s, 8 samples"), (untuned + runs + uncertain, "2 runs of 2 s, 8 samples of each")):
+            problem = codesign.Problem(PENDULUM) if study is None else codesign.Problem(PENDULUM, study)
+            self.assertIn(f"</b>, {words}</p>", problem._repr_html_())
+            self.assertIn(f": {words}, ", repr(problem))
+
     def test_a_run_has_ranges_curves_and_the_mechanism(self):
         run = codesign.Problem(PENDULUM, SWING).simulate(length=0.4)
         html = run._repr_html_()

@@ -242,6 +242,31 @@ class ApplyTest(NodesTestCase):
         finally:
             self.joints.message.position[0] = 0.1
 
+    def test_two_at_once(self):
+        """The second is refused while the first holds the robot, and told by whom and for how long; the first is not disturbed. A holder that was
+        killed holds nothing, though the master still knows it."""
+        first = self.start_apply("--ramp", str(PATIENCE))
+        try:
+            wait_until(lambda: self.requests() >= 4, "the ramp does not begin")
+            holder = next(name for name in rosnode.get_node_names() if name.startswith("/codesign_apply"))
+            returned, answer, _ = self.apply(*QUICK)
+            self.assertEqual((returned, answer["error"]["code"]), (1, "busy"), answer)
+            self.assertRegex(answer["error"]["message"], f"nothing was sent: {holder} changes the values of /arm_controller/gains/elbow, for [0-9.e+]+ s by now "
+                                                         rf"\(ramp {PATIENCE} s, hold 1 s\); wait for its end, or end it: rosnode kill {holder}")
+            self.assertEqual(answer["changes"], [])
+            steps = [values["p"] for values in self.elbow.requests]
+            self.assertEqual(steps, sorted(steps), "only the first has sent anything")
+            self.assertEqual(self.apply("--dry-run")[0], 0, "what sends nothing is not refused")
+            self.assertIsNone(first.poll())
+        finally:
+            first.kill()
+            first.communicate(timeout=PATIENCE)
+        self.assertIn(holder, rosnode.get_node_names())
+        for gains in (self.shoulder, self.elbow):
+            gains.server.update_configuration(START)
+        returned, _, err = self.apply(*QUICK)
+        self.assertEqual(returned, 0, err)
+
     def test_an_end_before_the_end(self):
         """By control-C and its relatives."""
         def kill(_process):

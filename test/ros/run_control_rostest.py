@@ -12,7 +12,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import PATIENCE, state_of, wait_until  # noqa: E402
+from node_process import PATIENCE, state_of, values_of, wait_until  # noqa: E402
 from robot_node import Latest, Robot, time_in  # noqa: E402
 
 # Of the crank.
@@ -50,6 +50,17 @@ class RunControlTest(unittest.TestCase):
         wait_until(lambda: len(self.robot.joints.messages) > frames + 6, "a resumed run goes on")
         self.assertGreater(self.robot.joints.messages[frames + 4].header.stamp, before, "a resumed run does not hurry to make up for its pause")
         self.assertFalse(self.robot.call("step").success, "a run that is not paused takes no steps")
+
+    def test_the_state_tells_the_time_after_a_step(self):
+        self.robot.restart(*START)
+        self.assertTrue(self.robot.call("pause").success)
+        # The second one comes before the real-time factor, with which the time is told of a run that goes on.
+        self.robot.call("step")
+        answer = self.robot.call("step")
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: abs(float(values_of(state_of("robot/simulation", "running"))["time of the run"]) - time_in(answer.message)) < 1e-6,
+                   "the state does not tell the time after a step")
+        self.robot.call("resume")
 
     def test_the_run_ends_and_restarts(self):
         friction = Latest("/brief/joint_friction", JointFriction)

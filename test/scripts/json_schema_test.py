@@ -72,6 +72,7 @@ class Outputs(unittest.TestCase):
         output = self.check("simulate", *self.case("slider_crank"))
         self.assertEqual(len(output["series"]["time"]), len(next(iter(output["series"].values()))))
         self.check("urdf", "urdf/slider_crank.urdf")
+        self.assertIn("<codesign:actuator", self.check("overlay", "urdf/vendor_arm.urdf")["overlay"])
 
     def test_events(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -60,12 +60,13 @@ std::vector<ShapeDescription> read_solids(const XmlElement& link, const std::str
   return shapes;
 }
 
-std::string as_xml(const MassProperties<double>& m) {
+/// @param rpy further attributes of the origin
+std::string as_xml(const MassProperties<double>& m, const std::string& rpy = "") {
   const auto attribute = [&](const char* name, int i, int k) {
     return std::string(" ") + name + "=\"" + to_decimal(m.inertia(i, k)) + "\"";
   };
-  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) +
-         "\"/> <mass value=\"" + to_decimal(m.mass) + "\"/> <inertia" + attribute("ixx", 0, 0) +
+  return "<origin xyz=\"" + format_numbers({m.centre[0], m.centre[1], m.centre[2]}) + "\"" + rpy +
+         "/> <mass value=\"" + to_decimal(m.mass) + "\"/> <inertia" + attribute("ixx", 0, 0) +
          attribute("ixy", 0, 1) + attribute("ixz", 0, 2) + attribute("iyy", 1, 1) +
          attribute("iyz", 1, 2) + attribute("izz", 2, 2) + "/>";
 }
@@ -184,6 +185,24 @@ std::optional<InertialDescription> read_inertial(const XmlElement& link,
                        "mass or inertia is missing, which other readers of URDF need");
   check_agreement(*inertial, read_numbers(*inertial, table), result, table);
   return result;
+}
+
+// An overlay is merged into an <inertial> of zeros, whose rpy would stay.
+std::string inertial_text(const MassProperties<double>& properties) {
+  return as_xml(properties, " rpy=\"0 0 0\"");
+}
+
+std::string inertial_of_shapes(const XmlElement& link, const std::string& from, double density,
+                               const ParameterTable& table) {
+  InertialDescription inertial;
+  inertial.density = Quantity(density);
+  try {
+    inertial.shapes = read_solids(link, from, table);
+  } catch (const InputError&) {
+    return "";
+  }
+  return "<inertial codesign:density=\"" + to_decimal(density) + "\" codesign:from=\"" + from +
+         "\">" + inertial_text(mass_properties(inertial, table.values)) + "</inertial>";
 }
 
 }  // namespace codesign

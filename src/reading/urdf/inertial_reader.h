@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "description/robot.h"
+#include "mechanism/mass_properties.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/xml/xml_document.h"
 
@@ -21,6 +22,15 @@ std::optional<InertialDescription> read_inertial(const XmlElement& link,
 /// from the shapes at the parameters' defaults, unless the overlay gives them as well.
 /// @throws InputError as read_inertial().
 void write_out_densities(XmlDocument* document);
+/// Origin, mass and inertia as elements of an `<inertial>`, to be pasted.
+std::string inertial_text(const MassProperties<double>& properties);
+
+/// The `<inertial>` that a link has if its shapes are solids of this density [kg/m^3], to be
+/// pasted.
+/// @param from "visual" or "collision". @returns an empty text if there are no such shapes, or one
+/// is no box, cylinder, sphere, or mesh that can be read.
+std::string inertial_of_shapes(const XmlElement& link, const std::string& from, double density,
+                               const ParameterTable& table);
 
 /// Writes out every `<inertial codesign:inertia="free">`: the document gets ten
 /// `<codesign:parameter>` LINK_alpha, LINK_d1 and so on (see kLogCholeskyNames), and mass, centre

@@ -26,12 +26,6 @@ void check_annotations(const XmlDocument& document);
 /// @throws InputError with the nearest name.
 void check_vocabulary(const XmlDocument& document, Warnings* warnings);
 
-/// Of warnings, ordered by line, that say the same of many elements of a vendor's file, such as
-/// limits and inertias, keeps the first one of each code and file, with the number of the others.
-void count_repetitions(Warnings* warnings);
-/// "; the same at 3 further places of this file, the last in line 88", the end of such a warning.
-std::string further_places(int count, int last_line);
-
 /// Checks for a misspelt prefix (`codesing:`) and for another prefix that is declared for our
 /// namespace. @throws InputError
 void check_prefixes(const XmlDocument& document);

@@ -11,6 +11,7 @@
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/urdf_checks.h"
 #include "reading/urdf/vocabulary.h"
+#include "text/told_once.h"
 
 namespace codesign {
 namespace {
@@ -164,7 +165,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   check_friction(robot);
   check_with_urdfdom(document);
   sort_by_place(robot.file, &robot.warnings);
-  count_repetitions(&robot.warnings);
+  robot.warnings = told_once(robot.warnings);
   return robot;
 }
 

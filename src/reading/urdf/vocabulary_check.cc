@@ -43,6 +43,12 @@ bool same_number(const XmlElement& element, const std::string& a, const std::str
   return number(a).has_value() && number(a) == number(b);
 }
 
+/// Whether the joint has the element that its <dynamics armature> is translated to.
+bool is_translated(const XmlElement& dynamics) {
+  const tinyxml2::XMLNode* const joint = dynamics.node()->Parent();
+  return joint != nullptr && joint->FirstChildElement("codesign:actuator") != nullptr;
+}
+
 class Check {
  public:
   void visit(const XmlElement& element, const std::string& path) {
@@ -51,41 +57,17 @@ class Check {
     check_repeats(element, rule, words);
     if (words != nullptr) {
       for (const std::string& attribute : element.attributes())
-        check_attribute(element, attribute, path, *words);
-      for (const XmlElement& child : element.children()) check_child(child, path, rule, *words);
+        check_attribute(element, attribute, *words);
+      for (const XmlElement& child : element.children()) check_child(child, rule, *words);
     }
     for (const XmlElement& child : element.children()) visit(child, path + "/" + child.tag());
   }
 
-  /// One warning for each name at each place of the language, in the order of lines.
-  Warnings warnings() const {
-    Warnings all;
-    for (const Noted& noted : noted_) {
-      all.push_back(noted.first);
-      if (noted.further > 0)
-        all.back().message += further_places(noted.further, noted.last_line);
-    }
-    return all;
-  }
+  const Warnings& warnings() const { return warnings_; }
 
  private:
-  /// A warning, and how often the same name stands in the same kind of element.
-  struct Noted {
-    std::string kind;
-    Warning first;
-    int further = 0, last_line = 0;
-  };
-
-  void note(const std::string& kind, const Warning& warning) {
-    const auto found = std::find_if(noted_.begin(), noted_.end(),
-                                    [&](const Noted& noted) { return noted.kind == kind; });
-    if (found == noted_.end()) return noted_.push_back({kind, warning});
-    ++found->further;
-    found->last_line = warning.where.line;
-  }
-
   void check_attribute(const XmlElement& element, const std::string& attribute,
-                       const std::string& path, const Vocabulary& words) {
+                       const Vocabulary& words) {
     if (contains(words.attributes, attribute) || has_prefix(attribute)) return;
     if (element.in_overlay(attribute))
       throw unknown_name(element.where(attribute), element.label(), "attribute " + attribute,
@@ -93,28 +75,27 @@ class Check {
     if (contains(words.other_attributes, attribute)) return;
     if (const std::string* twin = found(words.repeats, attribute)) {
       if (!same_number(element, attribute, *twin))
-        note(path + " " + attribute,
-             element.warning_at("unknown_attribute", attribute,
-                                "the attribute " + attribute + " is ignored, since " + *twin +
-                                    " counts, which is another number",
-                                "correct " + *twin + ", or remove " + attribute));
+        warnings_.push_back(element.warning_at("unknown_attribute", attribute,
+                                               "the attribute " + attribute +
+                                                   " is ignored, since " + *twin +
+                                                   " counts, which is another number",
+                                               "correct " + *twin + ", or remove " + attribute));
       return;
     }
     const std::string* translation = found(words.translations, attribute);
+    if (translation != nullptr && is_translated(element)) return;
     const std::string near = translation ? "" : nearest_name(attribute, words.attributes);
     const std::string advice = translation    ? *translation + ", or "
                                : near.empty() ? ""
                                               : "write " + near + ", or ";
-    note(
-        path + " " + attribute,
-        element.warning_at("unknown_attribute", attribute,
-                           "the attribute " + attribute +
-                               " is ignored, since no reader of URDF knows it" + did_you_mean(near),
-                           advice + "remove it"));
+    warnings_.push_back(element.warning_at("unknown_attribute", attribute,
+                                           "the attribute " + attribute +
+                                               " is ignored, since no reader of URDF knows it" +
+                                               did_you_mean(near),
+                                           advice + "remove it"));
   }
 
-  void check_child(const XmlElement& child, const std::string& path, const ElementRule* rule,
-                   const Vocabulary& words) {
+  void check_child(const XmlElement& child, const ElementRule* rule, const Vocabulary& words) {
     const std::string tag = child.tag();
     if (contains(words.children, tag) || is_ours(tag)) return;
     Names known = words.children;
@@ -127,17 +108,16 @@ class Check {
                         list_names(known)});
     if (has_prefix(tag) || contains(words.other_children, tag)) return;
     if (const Names places = elements_with(tag); !places.empty()) {
-      note(path + "/" + tag,
-           child.warning("unknown_element", "the element does not belong here and is ignored",
-                         "<" + tag + ">", "move it into " + list_names(places) + ", or remove it"));
+      warnings_.push_back(
+          child.warning("unknown_element", "the element does not belong here and is ignored",
+                        "<" + tag + ">", "move it into " + list_names(places) + ", or remove it"));
       return;
     }
     if (near.empty()) return;
-    note(path + "/" + tag,
-         child.warning("unknown_element",
-                       "the element is ignored, since no reader of URDF knows it, did you mean \"" +
-                           near + "\"?",
-                       "<" + tag + ">", "write <" + near + ">, or remove it"));
+    warnings_.push_back(child.warning(
+        "unknown_element",
+        "the element is ignored, since no reader of URDF knows it, did you mean \"" + near + "\"?",
+        "<" + tag + ">", "write <" + near + ">, or remove it"));
   }
 
   void check_repeats(const XmlElement& element, const ElementRule* rule, const Vocabulary* words) {
@@ -153,14 +133,14 @@ class Check {
       if (strict || ((single || inertial) && child.in_overlay()))
         child.fail("a second <" + tag + ">", "", "one at most");
       if (single || inertial)
-        noted_.push_back(
-            {"", child.warning("repeated_element",
-                               "a second <" + tag + ">; the first one is used, as other readers do",
-                               "", "remove one")});
+        warnings_.push_back(
+            child.warning("repeated_element",
+                          "a second <" + tag + ">; the first one is used, as other readers do", "",
+                          "remove one"));
     }
   }
 
-  std::vector<Noted> noted_;
+  Warnings warnings_;
 };
 
 /// The prefix of a name: the part before the colon; of a declaration `xmlns:x` the part after it.
@@ -237,8 +217,7 @@ void refuse_text(const XmlDocument& overlay) { refuse_text_in(*overlay.robot(), 
 void check_vocabulary(const XmlDocument& document, Warnings* warnings) {
   Check check;
   check.visit(XmlElement(document.robot(), &document), "robot");
-  const Warnings found = check.warnings();
-  warnings->insert(warnings->end(), found.begin(), found.end());
+  warnings->insert(warnings->end(), check.warnings().begin(), check.warnings().end());
 }
 
 void check_prefixes(const XmlDocument& document) {

@@ -7,9 +7,11 @@
 
 #include <limits>
 #include <memory>
+#include <set>
 #include <utility>
 
 #include "ros/apply/reconfigure_client.h"
+#include "ros/apply/server_hold.h"
 #include "ros/bags/bag_files.h"
 #include "ros/common/replies.h"
 #include "text/number_text.h"
@@ -74,6 +76,8 @@ class Application {
     const SafeRanges ranges = safe_ranges(request_, job);
     const std::vector<GainOrder> orders = orders_of(job, request_.server);
     find_servers(orders);
+    // Values that another program is changing are not those to go back to.
+    if (!request_.dry_run) hold_servers(ramp);
     plan(orders);
     RobotWatch watcher(robot_.node(), ranges, watch);
     if (const std::string fault = watcher.begin(kAnswerPatience); !fault.empty())
@@ -99,6 +103,16 @@ class Application {
                                        " is missing; rosservice list shows " +
                                        "the servers, as NAMESPACE/set_parameters"};
     }
+  }
+
+  void hold_servers(const RampOptions& ramp) {
+    std::set<std::string> names;
+    for (const std::unique_ptr<ReconfigureClient>& client : clients_) names.insert(client->name());
+    const std::string purpose =
+        "ramp " + to_decimal(ramp.ramp) + " s, hold " + to_decimal(ramp.hold) + " s";
+    for (const std::string& name : names)
+      if (const std::string held = hold_.take(name, purpose); !held.empty())
+        throw Refusal{"busy", "nothing was sent: " + held};
   }
 
   void plan(const std::vector<GainOrder>& orders) {
@@ -165,7 +179,8 @@ class Application {
   const Request& request_;
   const std::atomic<bool>& cancel_;
   Response& response_;
-  Robot robot_;  // before the clients, which use its queue
+  Robot robot_;  // before hold and clients, which use its queue
+  ServerHold hold_{robot_.node()};
   std::vector<std::unique_ptr<ReconfigureClient>> clients_;
   std::vector<RampServer> servers_;
 };

@@ -137,8 +137,9 @@ std::string unpack_chunk(const std::string& compression, std::string packed, std
 
 BagContents::BagContents(const std::string& path) {
   // Anything but a file, such as a pipe, could be waited for without an end.
-  if (!std::filesystem::exists(path)) throw BagFault("there is no such file");
-  if (!std::filesystem::is_regular_file(path)) throw BagFault("it is not a file");
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) throw BagFault("there is no such file");
+  if (!std::filesystem::is_regular_file(path, unknown)) throw BagFault("it is not a file");
   errno = 0;
   file_.open(path, std::ios::binary);
   if (!file_) throw BagFault(std::strerror(errno));

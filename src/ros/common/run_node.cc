@@ -57,6 +57,8 @@ void on_end_request(void (*act)()) {
   end_act = act;
   std::signal(SIGINT, on_end_signal);
   std::signal(SIGTERM, on_end_signal);
+  // A file that becomes larger than the limit (ulimit -f) is an error of the write, as a full disk.
+  std::signal(SIGXFSZ, SIG_IGN);
   if (std::signal(SIGHUP, on_end_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   // Binds the name before ros::start(), since the first function that is bound to a name keeps it.
   ros::XMLRPCManager::instance()->bind("shutdown", on_shutdown_call);

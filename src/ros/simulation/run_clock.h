@@ -98,12 +98,18 @@ class Pace {
   ros::WallTime next_;
 };
 
-/// The real-time factor: seconds of the run per second of wall time [-].
+/// The real-time factor: seconds of the run per second of wall time [-], without pauses.
 class RealTimeFactor {
  public:
   void start(const ros::WallTime& now) {
     *this = RealTimeFactor();
     start_ = last_wall_ = now;
+  }
+
+  /// Leaves out a part of the wall time, in which the run was paused.
+  void leave_out(const ros::WallDuration& pause) {
+    start_ += pause;
+    last_wall_ += pause;
   }
 
   /// Notes that the run has reached `time` [s]. Returns whether value() is new, at most twice a

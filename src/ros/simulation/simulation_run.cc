@@ -93,6 +93,7 @@ Status SimulationNode::run_once() {
   watch_limits();
   control_.begin_run();
   Status status = run_frames();
+  state_.show("time of the run", std::to_string(frame_.time));
   state_.show("real-time factor of the run",
               std::to_string(factor_.mean(frame_.time, ros::WallTime::now())));
   tell_figures(simulation_->statistics());
@@ -152,9 +153,13 @@ Status SimulationNode::serve() {
       simulation_->sample(frame_.time, &frame_);
       show_frame(false);
     }
+    if (!has_waited) state_.show("time of the run", std::to_string(frame_.time));
     has_waited = true;
-    state_.show("waits for", control_.is_paused() ? "~step or ~resume" : "a command");
+    const bool is_paused = control_.is_paused();
+    state_.show("waits for", is_paused ? "~step or ~resume" : "a command");
+    const ros::WallTime before = ros::WallTime::now();
     bell_.wait(kLook);
+    if (is_paused) factor_.leave_out(ros::WallTime::now() - before);
   }
   if (!has_waited) return {};
   state_.show("waits for", "nothing");

@@ -134,5 +134,16 @@ TEST(RealTimeFactor, IsTimeOfTheRunOverWallTime) {
   EXPECT_DOUBLE_EQ(factor.mean(5.0, ros::WallTime(1004.0)), 1.25);
 }
 
+TEST(RealTimeFactor, CountsNoPause) {
+  RealTimeFactor factor;
+  factor.start(ros::WallTime(1000.0));
+  EXPECT_TRUE(factor.note(1.0, ros::WallTime(1001.0)));
+  factor.leave_out(ros::WallDuration(100.0));
+  EXPECT_FALSE(factor.note(1.0, ros::WallTime(1101.0))) << "it is not due sooner";
+  EXPECT_TRUE(factor.note(3.0, ros::WallTime(1102.0)));
+  EXPECT_DOUBLE_EQ(factor.value(), 2.0);
+  EXPECT_DOUBLE_EQ(factor.mean(3.0, ros::WallTime(1102.0)), 1.5);
+}
+
 }  // namespace
 }  // namespace codesign
