@@ -112,17 +112,19 @@ INSTANTIATE_TEST_SUITE_P(Functions, TransposedCodeTest,
                                             ::testing::Bool()));
 
 /// Compares transposed products with the complex step of weighted sums. @param results the numbers
-/// that the weights multiply, at a state and a design.
+/// that the weights multiply, at a state and a design. @param mode to hold; empty: none.
 template <class Results>
 void expect_transposed(const CompiledSystem& system, EquationPart part, EquationFunction function,
                        const State<double>& at, const Eigen::VectorXd& first,
-                       const Eigen::VectorXd& second, const Results& results) {
+                       const Eigen::VectorXd& second, const Results& results,
+                       const std::vector<bool>& mode = {}) {
   const Layout& layout = system.layout();
   const std::vector<int>& all_tuned = system.study().tuned;
   const int columns = layout.positions() + layout.n + layout.columns(),
             tuned = static_cast<int>(all_tuned.size());
   CompiledEquations<double> equations(system, part);
   equations.set_design(system.parameters());
+  if (!mode.empty()) equations.hold(mode);
   Eigen::VectorXd derived = Eigen::VectorXd::Zero(columns + tuned);
   const Out<double> all = derived;
   equations.add_transposed(function, at, {first, second, {}, {}}, all.first(columns));
@@ -140,6 +142,7 @@ void expect_transposed(const CompiledSystem& system, EquationPart part, Equation
     for (int parameter : all_tuned) design[static_cast<std::size_t>(parameter)] += moved[k++];
     CompiledEquations<C> complex(system, part);
     complex.set_design(design);
+    if (!mode.empty()) complex.hold(mode);
     const VectorX<C> numbers = results(&complex, state);
     return Eigen::VectorXcd::Constant(1, numbers.cwiseProduct(weights.cast<C>()).sum());
   };
@@ -171,9 +174,12 @@ TEST(TransposedSwitches, AreTheComplexStepOfTheGuards) {
     all << differences, right;
     return all;
   };
-  const Eigen::VectorXd first = waves(2, 0.5), second = waves(2, 1.1);
+  CompiledEquations<double> equations(*system);
+  equations.set_design(system->parameters());
+  const std::vector<bool> mode = equations.mode_of(waving(*system));
+  ASSERT_EQ(mode.size(), 2U);
   expect_transposed(*system, EquationPart::kMotion, EquationFunction::kSwitches, waving(*system),
-                    first, second, switches);
+                    waves(2, 0.5), waves(2, 1.1), switches, mode);
 }
 
 TEST(TransposedSamples, AreTheComplexStepOfOutputAndMemory) {
