@@ -187,7 +187,7 @@ class Problem:
         """gradient() by the adjoint, whatever `solver.gradient` says: about four simulations for any number of parameters.
 
         `solver.sensitivity_tolerance` does not hold, since there are no sensitivities. Raises InputError for a study without adjoint
-        (integrator idas, bounds on signals, peaks, sampled controllers).
+        (integrator idas, bounds on signals, peaks).
         """
         return self._evaluate(rho, parameters, 1, True)[:2]
 

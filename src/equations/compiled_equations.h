@@ -127,8 +127,9 @@ class CompiledEquations {
   // The next two functions exist for T = double only. The products by parameters are summed up
   // since set_design().
 
-  /// Adds the derivatives of the sum of weights times results of a function of
-  /// EquationPart::kMotion by q and s, v and z at fixed parameters to `adjoint`, theory (18e).
+  /// Adds the derivatives of the sum of weights times results of a function by q and s, v and z at
+  /// fixed parameters to `adjoint`, theory (18e): of kResidual, kLinearization, kConstraintErrors
+  /// or kSwitches of EquationPart::kMotion, or of a sample of EquationPart::kStart.
   /// @param weights one array per result in the order of EquationFunction; then empty arrays.
   /// @param adjoint (q, s), v and z side by side; more entries are not touched.
   void add_transposed(EquationFunction function, const State<T>& state,

@@ -90,6 +90,10 @@ void EquationCode::record(EquationFunction function, const Compute& compute) {
 
 void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
   RecordedEquations* const equations = &begun->equations;
+  for (EquationFunction function :
+       {EquationFunction::kResidual, EquationFunction::kLinearization,
+        EquationFunction::kConstraintErrors, EquationFunction::kSwitches})
+    at(function).has_products = true;
   take_design_guards(begun->of_design);
   take_guards(begun->of_design, recording_->decisions().size(),
               &at(EquationFunction::kResidual).guards);
@@ -222,13 +226,15 @@ void EquationCode::record_start(RecordedEquations* equations) {
           VectorX<Traced>::Constant(1, formulas.rated_error(controller))};
     });
     if (!system_.study().controllers[k].realization.is_sampled()) continue;
-    for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample})
+    for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample}) {
+      at(controller_function(controller, which)).has_products = true;
       record(controller_function(controller, which), [&] {
         VectorX<Traced> s = state.s;
         const Traced output =
             formulas.sample(controller, which == ControllerFunction::kFirstSample, &s);
         return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, output), s};
       });
+    }
   }
 }
 

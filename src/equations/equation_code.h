@@ -54,6 +54,7 @@ struct RecordedFunction {
   std::vector<Recording::Guard> guards;
   std::vector<int> columns;     ///< of the gradient of a signal
   bool has_derivatives = true;  ///< whether tangents may be asked for
+  bool has_products = false;    ///< whether transposed products may be
 };
 
 /// The guards that code checks: with `held` all but those of switches.
@@ -117,7 +118,8 @@ class EquationCode {
 
   /// The recording from which the code for values, or for values and derivatives, is made.
   const NumberedRecording& numbered(bool with_derivatives) const;
-  /// The transposed derivatives of the functions of EquationPart::kMotion, made by the first call.
+  /// The transposed derivatives of the first functions of EquationPart::kMotion, up to kSwitches,
+  /// or of the samples of EquationPart::kStart; made by the first call.
   const TransposedCode& transposed() const;
   /// The recorded decisions that depend on the design alone; the code may run only for designs with
   /// the same outcomes.

@@ -39,15 +39,17 @@ int state_column(const Layout& layout, const Recording::Node& node) {
 
 TransposedCode::TransposedCode(const System& system, const Recording& recorded,
                                const std::vector<RecordedFunction>& functions, bool interpreted)
-    : interpreted_(interpreted) {
+    : interpreted_(interpreted), functions_(functions.size()) {
   numbered_.recording = recorded;
   find_dependent(system);
   std::vector<int> sum_of(depends_.size(), -1);
-  for (std::size_t f = 0; f < kFunctions; ++f)
-    transpose(system, functions[f], &sum_of, &functions_[f]);
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    if (functions[f].has_products) transpose(system, functions[f], &sum_of, &functions_[f]);
   transpose_design(sum_of);
   numbered_.number_nodes();
-  for (Transposed& transposed : functions_) transposed.task.homes = numbered_.homes;
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    if (functions[f].has_products) functions_[f].task.homes = numbered_.homes;
+  design_.task.homes = numbered_.homes;
 }
 
 void TransposedCode::find_dependent(const System& system) {
@@ -133,29 +135,27 @@ void TransposedCode::transpose_design(const std::vector<int>& sum_of) {
   const std::vector<Traced> adjoints = derive_adjoints(recording, seeds, is_target);
   for (std::size_t n = 0; n < adjoints.size(); ++n) {
     if (adjoints[n].is(0.0)) continue;
-    functions_[kDesign].task.outputs.push_back(
-        {adjoints[n].node_in(recording),
-         {Arrays::kAdjoints, static_cast<int>(expressions_.size())}});
+    design_.task.outputs.push_back({adjoints[n].node_in(recording),
+                                    {Arrays::kAdjoints, static_cast<int>(expressions_.size())}});
     expressions_.push_back(recording->node(static_cast<int>(n)).b);
   }
 }
 
-const CompiledFunction& TransposedCode::code(std::size_t which, bool interpreted, bool held) const {
-  const Transposed& transposed = functions_[which];
-  const std::vector<Recording::Guard>& guards = transposed.task.guards;
+const CompiledFunction& TransposedCode::code(const Transposed& which, bool interpreted,
+                                             bool held) const {
+  const std::vector<Recording::Guard>& guards = which.task.guards;
   const bool has_switches = std::any_of(
       guards.begin(), guards.end(), [](const Recording::Guard& guard) { return guard.is_switch; });
   const std::size_t kind = (interpreted ? 1U : 0U) + (held && has_switches ? 2U : 0U);
-  std::call_once(transposed.made[kind], [&] {
-    ValueTask task = transposed.task;
+  std::call_once(which.made[kind], [&] {
+    ValueTask task = which.task;
     task.guards = checked(task.guards, held);
     const ValueProgram program(numbered_.recording, task);
-    transposed.code[kind] =
+    which.code[kind] =
         compile_values(numbered_.recording, task, program, interpreted || interpreted_);
-    transposed.code[kind]->rows =
-        which == kDesign ? expressions_.size() : transposed.results.size();
+    which.code[kind]->rows = &which == &design_ ? expressions_.size() : which.results.size();
   });
-  return *transposed.code[kind];
+  return *which.code[kind];
 }
 
 DesignProducts::DesignProducts(const System& system, const TransposedCode& code)

@@ -14,8 +14,8 @@
 
 namespace codesign {
 
-/// The products of the transposed derivatives of the recorded functions of motion with given
-/// weights of their results, theory (18e), by reverse accumulation on their recording. A product by
+/// The products of the transposed derivatives of recorded functions with given weights of their
+/// results, theory (18e), by reverse accumulation on their recording. A product by
 /// the state goes down to the state; a product by the parameters goes down to the numbers that
 /// depend on the tuned parameters alone, since those are computed once per design. From there
 /// design() goes on to the expressions of the parameters. Thread-safe.
@@ -32,7 +32,7 @@ class TransposedCode {
   };
 
   /// @param recorded the recording of all functions. @param functions their results and decisions,
-  /// one per EquationFunction.
+  /// one per EquationFunction; those with has_products are transposed.
   /// @param interpreted whether machine code is never made.
   TransposedCode(const System& system, const Recording& recorded,
                  const std::vector<RecordedFunction>& functions, bool interpreted);
@@ -43,7 +43,7 @@ class TransposedCode {
   /// The code of one function, made by the first call; `held` as of EquationCode::Scalar. The
   /// weights of the k-th array of results are array kResults + k.
   const CompiledFunction& function(EquationFunction function, bool interpreted, bool held) const {
-    return code(to_index(function), interpreted, held);
+    return code(functions_[to_index(function)], interpreted, held);
   }
   const Results& results(EquationFunction function) const {
     return functions_[to_index(function)].results;
@@ -53,13 +53,11 @@ class TransposedCode {
   std::size_t sums() const { return sums_; }
   /// Code that multiplies the derivatives by all sums(), array kResults, with the derivatives of
   /// these numbers by expressions of the parameters; its results are in the order of expressions().
-  const CompiledFunction& design() const { return code(kDesign, true, false); }
+  const CompiledFunction& design() const { return code(design_, true, false); }
   /// Entries of Recording::supplied_sources().
   const std::vector<int>& expressions() const { return expressions_; }
 
  private:
-  static constexpr std::size_t kFunctions = 4, kDesign = kFunctions;
-
   struct Transposed {
     ValueTask task;
     Results results;
@@ -72,13 +70,14 @@ class TransposedCode {
   void transpose(const System& system, const RecordedFunction& recorded, std::vector<int>* sum_of,
                  Transposed* transposed);
   void transpose_design(const std::vector<int>& sum_of);
-  const CompiledFunction& code(std::size_t which, bool interpreted, bool held) const;
+  const CompiledFunction& code(const Transposed& which, bool interpreted, bool held) const;
 
   const bool interpreted_;
   NumberedRecording numbered_;
   std::vector<bool>
       depends_;  ///< per node: whether it varies with the tuned parameters, at a fixed state
-  std::array<Transposed, kFunctions + 1> functions_;
+  std::vector<Transposed> functions_;
+  Transposed design_;
   std::size_t sums_ = 0;
   std::vector<int> expressions_;
 };

@@ -56,8 +56,8 @@ void require_adjoint(const Problem& problem) {
                         "adjoint",
                         "this study has no adjoint",
                         "",
-                        "the integrator rosenbrock, without path, final, peaks, measures, "
-                        "positions, and controllers with sample_time"});
+                        "the integrator rosenbrock, without path, final, peaks, measures and "
+                        "positions"});
 }
 
 }  // namespace

@@ -11,11 +11,10 @@ namespace codesign {
 
 AdjointGradient::Backward::Backward(const CompiledSystem& system, const RosenbrockTableau& tableau,
                                     int most_points)
-    : replay(system, tableau),
+    : replay(system, tableau, most_points),
       adjoint(system, tableau),
-      boundary(system),
-      path(system.layout(), most_points) {
-  point.resize(system.layout());
+      jumps(system),
+      boundary(system) {
   final_adjoint.setZero(IncrementLayout(system.layout()).size());
 }
 
@@ -32,22 +31,29 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   if (!status.ok() || !with_gradient_) return status;
   if (!back_) {
     back_.emplace(system_, integrator_.step().tableau(), most_points_);
-    back_->replay.keep_pivots_of(integrator_.step());
     control_ = make_control_tangent(system_);
   }
   control_->start(parameters, &integrator_);
-  back_->path.clear();
-  back_->path.append(0.0, integrator_.step().tableau(), integrator_.initial_state());
+  back_->replay.start(integrator_);
   return status;
 }
 
+Status AdjointGradient::jump() {
+  Status status = integrator_.jump();
+  if (!status.ok() || !integrator_.has_jumped()) return status;
+  control_->jump(&integrator_);
+  back_->replay.store_jump(integrator_);
+  return status;
+}
+
+// A jump at the beginning of a step may end the run.
 Status AdjointGradient::advance(double limit) {
   if (!with_gradient_) return integrator_.advance(limit);
+  if (Status status = jump(); !status.ok() || integrator_.is_ended()) return status;
   Status status = integrator_.advance(limit, judge_);
-  const RosenbrockStep<double>& step = integrator_.step();
   if (!status.ok()) return status;
-  control_->accept(step);
-  back_->path.append(step.step_size(), step.tableau(), step.unprojected());
+  control_->accept(integrator_.step());
+  back_->replay.store_step(integrator_);
   return status;
 }
 
@@ -56,8 +62,17 @@ double AdjointGradient::objective() {
                                 integrator_.equations().terminal(integrator_.state()));
 }
 
+bool AdjointGradient::look_at_end() {
+  end_.start();
+  if (!has_moving_end(system_.study()) || !integrator_.has_ended()) return true;
+  const std::vector<double>& parameters = integrator_.equations().parameters();
+  Eigen::VectorXd time = duration_gradient(system_.study(), parameters);
+  if (integrator_.is_ended()) time.setZero();
+  return end_.evaluate(&integrator_, time).ok();
+}
+
 // The backward pass begins with the gradient of the terminal terms as the adjoint of the last
-// state, and 1 for psi.
+// state, and 1 for psi; and with the guard that ended the run.
 void AdjointGradient::prepare() {
   const std::vector<double>& parameters = integrator_.equations().parameters();
   const IncrementLayout at(system_.layout());
@@ -68,71 +83,59 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.position) adjoint[at.x() + e.column] += e.value;
   for (const auto& e : back_->terminal.velocity) adjoint[at.v() + e.column] += e.value;
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
+  back_->jumps.start(parameters);
+  if (const int guard = integrator_.end_guard(); end_.moves() && guard >= 0) {
+    const double rate = integrator_.end_guard_rate(end_.state(), end_.rates());
+    back_->jumps.add_guard(guard, -end_.objective_rate() / rate, integrator_.state(),
+                           integrator_.mode(), &adjoint);
+  }
   back_->adjoint.start(parameters, adjoint);
-  back_->replay.equations().set_design(parameters);
-  back_->replay.use(back_->path.tableau(0));
-  back_->replay.start(integrator_.initial_state());
-  back_->replay.choose_pivots(back_->path.size() > 1 ? back_->path.step_size(1)
-                                                     : integrator_.step().step_size());
+  back_->replay.begin(&integrator_);
 }
 
-/// Continues the solution at point k, which `point` holds.
-bool AdjointGradient::take_up(int k) {
-  RosenbrockStep<double>& step = back_->replay;
-  if (k + 1 < back_->path.size()) step.use(back_->path.tableau(k + 1));
-  if (k == 0) {
-    step.start(back_->point);
-  } else if (!step.resume(back_->point)) {
-    return false;
-  }
-  // Turn counts follow the nearest previous positions, in the backward pass as well.
-  step.track_turns();
-  return true;
+bool AdjointGradient::jump_back(const RunJump& jump, int k) {
+  const bool ends_run = k + 1 == back_->replay.size() && integrator_.is_ended();
+  return back_->jumps.reverse(jump, back_->replay.before(), back_->replay.behind(),
+                              back_->replay.mode_before(k), ends_run ? end_.objective_rate() : 0.0,
+                              &back_->adjoint.adjoint());
 }
 
-/// Sets `point` to the k-th point of the path. If it was not stored, the steps from the last stored
-/// point before it are repeated.
-bool AdjointGradient::reach(int k) {
-  StepPath& path = back_->path;
-  State<double>& point = back_->point;
-  RosenbrockStep<double>& step = back_->replay;
-  const int from = path.kept_before(k);
-  path.point(from, &point);
-  if (from == k) return true;
-  const int spacing = path.make_room(from, k);
-  for (int at = from; at < k; ++at) {
-    if (is_set(cancel_)) return false;
-    if (!take_up(at) || !step.attempt(path.step_size(at + 1))) return false;
-    point = step.unprojected();
-    if (at + 1 == k || (at + 1 - from) % spacing == 0) path.keep(at + 1, point);
-  }
-  return true;
-}
-
-/// Repeats the step that began at point k; at the last point, only the projection.
-bool AdjointGradient::replay(int k) {
-  if (!take_up(k)) return false;
-  return k + 1 == back_->path.size() || back_->replay.attempt(back_->path.step_size(k + 1));
-}
-
+// The step that begins at point k, the jump there, and the projection with which it begins. Behind
+// a jump the matrices of the step are those of the state there.
 bool AdjointGradient::step_back(int k) {
+  StepReplay& replay = back_->replay;
   AdjointStep& adjoint = back_->adjoint;
-  if (!reach(k) || !replay(k)) return false;
-  RosenbrockStep<double>& step = back_->replay;
-  const bool has_stages = k + 1 < back_->path.size(), is_projected = k > 0;
+  if (!replay.repeat(k, cancel_)) return false;
+  const RunJump* const jump = replay.jump(k);
+  const bool has_stages = k + 1 < replay.size();
   adjoint.clear();
-  if (has_stages) adjoint.reverse_stages(&step);
-  if (is_projected) adjoint.reverse_projection(back_->point, step);
-  adjoint.reverse_matrices(back_->point);
+  adjoint.hold(replay.mode_after(k));
+  if (has_stages) adjoint.reverse_stages(&replay.step());
+  if (jump) {
+    // Only stages of implicit steps have matrices there.
+    if (has_stages && !replay.step().tableau().is_explicit())
+      adjoint.reverse_matrices(replay.behind());
+    if (!jump_back(*jump, k)) return false;
+    if (k == 0 || system_.layout().m == 0) return true;
+    adjoint.clear();
+    adjoint.hold(replay.mode_before(k));
+  }
+  if (k > 0) adjoint.reverse_projection(replay.point(), replay.step());
+  adjoint.reverse_matrices(replay.point());
   return true;
 }
 
 // Adds the parts of (18a) at both ends of the run, psi_y(0)^T y_rho(0) and w_rho, with one lane per
-// parameter.
+// parameter. The rates of the start are solved for again, since extend() goes on from there.
 void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
   const IncrementLayout at(system_.layout());
   const VectorX<double>& adjoint = back_->adjoint.adjoint();
   Equations<Lanes<8>>& equations = back_->boundary;
+  back_->initial = integrator_.initial_state();
+  integrator_.equations().hold({});
+  if (!integrator_.assembly().solve_rates(&integrator_.equations(), &back_->initial).ok())
+    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
+  integrator_.equations().hold(integrator_.mode());
   const int count = static_cast<int>(gradient->size());
   for (int first = 0; first < count; first += 8) {
     const LaneRange<8> range{first, std::min(8, count - first)};
@@ -158,7 +161,7 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
 
 bool AdjointGradient::go_back() {
   prepare();
-  for (int k = back_->path.size(); k-- > 0;) {
+  for (int k = back_->replay.size(); k-- > 0;) {
     if (is_set(cancel_)) return false;
     if (!step_back(k)) return false;
   }
@@ -167,17 +170,14 @@ bool AdjointGradient::go_back() {
 
 void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setZero(to_signed(system_.study().tuned.size()));
-  if (!go_back()) {
+  if (!look_at_end() || !go_back()) {
     gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
     return;
   }
   back_->adjoint.add_gradient(*gradient);
+  back_->jumps.add_gradient(*gradient);
   add_boundaries(gradient);
-  if (!has_moving_end(system_.study()) || !integrator_.has_ended()) return;
-  const Status status = end_.evaluate(
-      &integrator_, duration_gradient(system_.study(), integrator_.equations().parameters()));
-  *gradient += (status.ok() ? end_.objective_rate() : std::numeric_limits<double>::quiet_NaN()) *
-               end_.time();
+  if (end_.moves()) *gradient += end_.objective_rate() * end_.time();
 }
 
 }  // namespace codesign

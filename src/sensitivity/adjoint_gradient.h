@@ -7,19 +7,20 @@
 
 #include "assembly/assembly.h"
 #include "integration/rosenbrock_integrator.h"
+#include "sensitivity/adjoint_jump.h"
 #include "sensitivity/adjoint_step.h"
 #include "sensitivity/control_directions.h"
 #include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
-#include "sensitivity/step_path.h"
+#include "sensitivity/step_replay.h"
 
 namespace codesign {
 
-/// Gradient by the discrete adjoint of the Rosenbrock steps, doc/theory.md (18a)-(18d): advance()
-/// integrates forward, with the tangent along control_directions() in the error test, and stores
-/// the path, gradient() goes back along its steps. Equal to the gradient of RosenbrockGradient up
-/// to rounding.
+/// Gradient by the discrete adjoint of the Rosenbrock steps and of the jumps between them,
+/// doc/theory.md (18a)-(18d), (18h): advance() integrates forward, with the tangent along
+/// control_directions() in the error test, and stores the path, gradient() goes back along its
+/// steps. Equal to the gradient of RosenbrockGradient up to rounding.
 class AdjointGradient final : public GradientEngine {
  public:
   /// @param most_points stored points of the path, see StepPath; 0: what fits into 32 MB.
@@ -36,6 +37,7 @@ class AdjointGradient final : public GradientEngine {
   const Extremes& extremes() const override { return none_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }
   Warnings warnings() const override { return integrator_.warnings(); }
+  const EventLog* events() const override { return &integrator_.events(); }
   void obey(const std::atomic<bool>* cancel) override {
     integrator_.obey(cancel);
     cancel_ = cancel;
@@ -45,25 +47,27 @@ class AdjointGradient final : public GradientEngine {
   /// Workspace of the backward pass, allocated by the first start() with gradient.
   struct Backward {
     Backward(const CompiledSystem& system, const RosenbrockTableau& tableau, int most_points);
-    RosenbrockStep<double> replay;
+    StepReplay replay;
     AdjointStep adjoint;
+    AdjointJump jumps;
     Equations<Lanes<8>> boundary;
     std::vector<Lanes<8>> boundary_parameters;  ///< with the directions of eight of them
     ExtensionWorkspace<Lanes<8>> boundary_extension;
     State<Lanes<8>> boundary_state;
-    StepPath path;
-    State<double> point;
+    State<double> initial;
     SparseGradient<double> terminal;
     VectorX<double> final_adjoint;
   };
 
+  /// Integrator::jump() with the tangent of the error test; stores what happened.
+  Status jump();
+  /// Finds out how the end of the run moves, if it has ended. False if that cannot be computed.
+  bool look_at_end();
   /// The backward pass over all steps. False if cancelled or if a step cannot be repeated.
   bool go_back();
   void prepare();
   bool step_back(int k);
-  bool reach(int k);
-  bool take_up(int k);
-  bool replay(int k);
+  bool jump_back(const RunJump& jump, int k);
   void add_boundaries(Eigen::VectorXd* gradient);
 
   const CompiledSystem& system_;

@@ -52,6 +52,12 @@ class AdjointStep {
   /// psi.
   void start(const std::vector<double>& parameters, const VectorX<double>& adjoint);
 
+  /// From now on the equations hold the mode of the steps that are reversed, theory (17d); an empty
+  /// one: none.
+  void hold(const std::vector<bool>& mode) {
+    mode.empty() ? equations_.release() : equations_.hold(mode);
+  }
+
   /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start.
   /// @param step of an explicit pair receives the factorization of a stage.
   void reverse_stages(RosenbrockStep<double>* step);
@@ -64,6 +70,8 @@ class AdjointStep {
 
   /// psi_y at `start` after reverse_matrices(), in the order of IncrementLayout.
   const VectorX<double>& adjoint() const { return adjoint_; }
+  /// The same between two steps, where a jump or the end of the run changes it.
+  VectorX<double>& adjoint() { return adjoint_; }
 
   /// Adds the sum of mu^T G_rho over all evaluations since start(), (18d). @param gradient p
   /// entries, order of Study::tuned.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/control_clock.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "integration/event_names.h"
@@ -40,10 +39,6 @@ bool prefers_adjoint(const CompiledSystem& system) {
     return false;
   // The adjoint has no derivatives of the extreme values of watched signals.
   if (!system.watched().empty()) return false;
-  // Nor does it go back over the jumps of sampled controllers.
-  if (!ControlClock(system.study()).is_empty()) return false;
-  // Nor over instants that guards determine.
-  if (system.has_switches()) return false;
   if (options.gradient == GradientMethod::kAdjoint) return true;
   return direct_cost(static_cast<int>(system.study().tuned.size())) > kAdjointCost;
 }

@@ -141,6 +141,23 @@ TEST(Ensemble, AGradientThatIsRoundingIsNotCoarse) {
   }
 }
 
+// Runs of an ensemble go back over their own events, at other instants in each sample.
+TEST(Ensemble, GradientsByTheAdjointOfMotionsThatSwitchAndEnd) {
+  for (const char* measure : {"mean", "worst", "mean_plus_deviation, factor: 2.0"}) {
+    const Problem problem =
+        block(std::string(kUncertain) + "robust: {samples: 4, measure: " + measure +
+                  "}\nloads: [{joint: slide, effort: \"${t < ts ? 5 : -5}\"}]\n"
+                  "until: \"${slide/position > 0.45 or t > 0.7}\"\nsolver: {gradient: adjoint}\n",
+              "{algorithm: slsqp}", ", ts: {initial: 0.3, lower: 0.1, upper: 0.7}");
+    Ensemble ensemble(problem);
+    const GradientCheck check =
+        check_gradient(ensemble, problem.start(), CheckMethod::kComplexStep);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_GT(check.reference.cwiseAbs().minCoeff(), 0.0) << measure;
+    EXPECT_LT(check.largest_relative_difference, 1e-8) << measure;
+  }
+}
+
 // A replay of the same steps does not see that they are too long where friction reverses.
 TEST(Ensemble, StepsThatAreTooLongForAGradientShow) {
   const std::string loop = source_dir() + "/test/features/planar_loop";

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Random hybrid studies: objective and gradient of `codesign gradient` against an event-driven solver of this folder.
-Usage: hybrid_test.py CODESIGN [--studies N | --minutes M] [--first NUMBER] [--keep FOLDER] [--verbose]"""
+Usage: hybrid_test.py CODESIGN [--studies N | --minutes M] [--first NUMBER] [--keep FOLDER] [--gradient METHOD] [--verbose]"""
 import argparse
 import collections
 import concurrent.futures
@@ -68,10 +68,12 @@ def judge(codesign, study):
     return ("warned" if warned else "disagree"), details
 
 
-def compare(codesign, seed, keep=None):
+def compare(codesign, seed, keep=None, gradient=None):
     """One line about the study of a number: (outcome, kinds, details). Model and study of a fault are kept."""
     generator = Generator(seed)
     study = generator.make()
+    method = gradient or ("adjoint" if seed % 2 else "auto")
+    study.solver = study.solver.replace("{", f"{{gradient: {method}, ", 1)
     outcome, details = judge(codesign, study)
     if keep and outcome in FAULTS:
         folder = pathlib.Path(keep) / str(seed)
@@ -88,6 +90,7 @@ def options():
     parser.add_argument("--first", type=int, default=0, help="the first number")
     parser.add_argument("--minutes", type=float, help="as many as can be compared in this time, in place of --studies")
     parser.add_argument("--keep", help="a folder for models and studies that fail")
+    parser.add_argument("--gradient", choices=("direct", "adjoint"), help="of all studies; by default the adjoint of those with an odd number")
     parser.add_argument("--verbose", action="store_true", help="a line for each study")
     return parser.parse_args()
 
@@ -104,7 +107,7 @@ def numbers(given):
 def main():
     given = options()
     outcomes, kinds_seen = collections.Counter(), collections.Counter()
-    compare_one = functools.partial(compare, os.path.abspath(given.codesign), keep=given.keep)
+    compare_one = functools.partial(compare, os.path.abspath(given.codesign), keep=given.keep, gradient=given.gradient)
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         source, waiting = numbers(given), collections.deque()
         while True:

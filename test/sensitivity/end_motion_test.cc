@@ -67,6 +67,21 @@ final:
        {{0, 0.9 * 0.9 / 2 + 0.9 * 1.2 - 1.2 * 1.2 / 2, {2.4, -0.3}},
         {1, -0.3, {2.0, -1.0}},
         {2, 2.1, {0.0, 1.0}}}},
+      // The same by penalties: x(T) = 0.765, v(T) = -0.3.
+      {"minimum time by penalties",
+       R"(
+duration: "${T}"
+gravity: [0, 0, 0]
+loads: [{joint: run, effort: "${t < ts ? 1 : -1}"}]
+parameters: {ts: {initial: 0.9, lower: 0.1, upper: 3}, T: {initial: 2.1, lower: 0.5, upper: 4}}
+objective:
+  terminal:
+    - {signal: end_time}
+    - {signal: run/position, reference: 1.0, weight: 10.0}
+    - {signal: run/velocity, weight: 5.0})",
+       2.1 * 2.1 + 10 * 0.235 * 0.235 + 5 * 0.09,
+       {-20 * 0.235 * 2.4 - 10 * 0.3 * 2.0, 4.2 + 20 * 0.235 * 0.3 + 10 * 0.3},
+       {}},
       // x = t, and a reference of the terminal term that moves.
       {"Bolza",
        R"(
@@ -256,32 +271,55 @@ INSTANTIATE_TEST_SUITE_P(
 
 class EndOfIdasTest : public EndMotionTest {};
 
+// Those that switch are left to rosenbrock.
 TEST_P(EndOfIdasTest, DurationsThatAreTuned) {
-  // idas does not locate switches: the first case has one.
-  const std::vector<EndCase> cases = cases_of_durations();
-  for (std::size_t k = 1; k < cases.size(); ++k) check(cases[k], GetParam());
+  for (const EndCase& test : cases_of_durations()) check(test, GetParam());
+}
+
+TEST_P(EndOfIdasTest, ConditionsAreLeftToTheOtherIntegrator) {
+  const RobotDescription robot = read_urdf({"thrown.urdf", kThrown});
+  for (const EndCase& test : cases_of_conditions()) {
+    const std::string text = std::string("solver: ") + GetParam() + test.study + "\n";
+    Warnings warnings;
+    make_system(robot, read_study({"study.yaml", text}, robot), &warnings);
+    ASSERT_EQ(warnings.size(), 1U) << test.name;
+    EXPECT_EQ(warnings[0].code, "other_integrator") << test.name;
+    check(test, GetParam());
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Idas, EndOfIdasTest,
                          ::testing::Values("{integrator: idas, relative_tolerance: 1.0e-9, "
                                            "absolute_tolerance: 1.0e-10}"));
 
-class EndOfAdjointTest : public EndMotionTest {};
-
-TEST_P(EndOfAdjointTest, DurationsThatAreTuned) {
-  const std::vector<EndCase> cases = cases_of_durations();
-  for (std::size_t k = 1; k < cases.size(); ++k) {
-    EXPECT_TRUE(prefers_adjoint(*system_of_case(cases[k], GetParam())));
-    check(cases[k], GetParam());
+/// The adjoint has no derivatives of watched signals: the cases without them.
+class EndOfAdjointTest : public EndMotionTest {
+ protected:
+  static void check_all(const std::vector<EndCase>& cases, const std::string& solver) {
+    for (EndCase test : cases) {
+      std::string study = test.study;
+      if (study.find("peak:") != std::string::npos) continue;
+      study.erase(std::min(study.find("\nfinal:"), study.size()));
+      test.study = study.c_str();
+      test.watched.clear();
+      EXPECT_TRUE(prefers_adjoint(*system_of_case(test, solver))) << test.name;
+      check(test, solver);
+    }
   }
-}
+};
+
+TEST_P(EndOfAdjointTest, DurationsThatAreTuned) { check_all(cases_of_durations(), GetParam()); }
+
+TEST_P(EndOfAdjointTest, ConditionsThatEndARun) { check_all(cases_of_conditions(), GetParam()); }
 
 INSTANTIATE_TEST_SUITE_P(
     Adjoint, EndOfAdjointTest,
     ::testing::Values("{gradient: adjoint, method: rodas5p, relative_tolerance: 1.0e-9, "
                       "absolute_tolerance: 1.0e-10}",
                       "{gradient: adjoint, method: dopri5, relative_tolerance: 1.0e-9, "
-                      "absolute_tolerance: 1.0e-10}"));
+                      "absolute_tolerance: 1.0e-10}",
+                      "{gradient: adjoint, method: rodas4, relative_tolerance: 1.0e-9, "
+                      "absolute_tolerance: 1.0e-10, coordinates: absolute}"));
 
 TEST_F(EndMotionTest, DifferencesOfOtherRunsAgree) {
   for (const auto& cases : {cases_of_durations(), cases_of_conditions()})

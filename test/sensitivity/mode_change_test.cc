@@ -39,6 +39,9 @@ double switched(double ts) {
 
 std::vector<SwitchCase> switch_cases() {
   const double x = switched(0.8), beyond = 0.7 + 1.3 - 0.25 * 1.69;
+  // Two halves of an oscillation with w = 2.2 rad/s about x = F/k and -F/k.
+  const double k = 4.84, F = 0.4, cosine = std::cos(2.0 * 2.2),
+               turned = -F / k - (3.0 * F / k - 1.0) * cosine;
   // floor(2 t) N: v = 0, then 0.5 (t - 0.5), ...
   return {
       {"a tuned switching time",
@@ -109,6 +112,22 @@ parameters: {ts: {initial: 0.8, lower: 0.1, upper: 1.9}}
 objective: {terminal: [{signal: slide/position, reference: 2.0}]})",
        (x - 2.0) * (x - 2.0),
        {2.0 * (x - 2.0) * 2.0 * 1.2}},
+      {"a force that begins at rest",
+       R"(
+loads: [{joint: slide, effort: "${t < ts ? 0 : 1}"}]
+parameters: {ts: {initial: 0.7, lower: 0.1, upper: 1.9}}
+objective: {terminal: [{signal: slide/position}]})",
+       0.845 * 0.845,
+       {-2.0 * 0.845 * 1.3}},
+      // The start is at rest, on the guard; the slide turns round at pi/w.
+      {"dry friction by a sign, with a turn",
+       R"(
+initial_state: {slide: {position: "${x0}"}}
+loads: [{joint: slide, effort: "${-4.84*slide/position - F*sign(slide/velocity)}"}]
+parameters: {x0: {initial: 1, lower: 0.5, upper: 2}, F: {initial: 0.4, lower: 0.1, upper: 1}}
+objective: {terminal: [{signal: slide/position}]})",
+       turned * turned,
+       {2.0 * turned * cosine, -2.0 * turned * (1.0 + 3.0 * cosine) / k}},
       // max() changes its side because the acceleration jumps, at an instant that is not its own.
       {"a guard that jumps",
        R"(
@@ -136,6 +155,7 @@ TEST_P(ModeChangeTest, GradientsAreThoseOfClosedForms) {
   for (const SwitchCase& test : switch_cases()) {
     const std::string study = "duration: 2.0\nsolver: " + std::string(GetParam()) + test.study;
     const auto system = make_system(robot, read_study({"study.yaml", study}, robot));
+    EXPECT_EQ(prefers_adjoint(*system), study.find("gradient: adjoint") != std::string::npos);
     const GradientCheck check =
         check_design(system, system->parameters(), CheckMethod::kComplexStep, nullptr, {});
     ASSERT_TRUE(check.status.ok()) << test.name << ": " << describe(check.status);
@@ -177,7 +197,14 @@ INSTANTIATE_TEST_SUITE_P(
         "{method: rodas4, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
         "{method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
         "{method: dopri5, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10, coordinates: "
-        "absolute}"));
+        "absolute}",
+        "{gradient: adjoint, relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10}",
+        "{gradient: adjoint, method: rodas5p, relative_tolerance: 1.0e-9, absolute_tolerance: "
+        "1.0e-10}",
+        "{gradient: adjoint, method: rodas4, relative_tolerance: 1.0e-9, absolute_tolerance: "
+        "1.0e-10, coordinates: absolute}",
+        "{gradient: adjoint, method: dopri5, relative_tolerance: 1.0e-9, absolute_tolerance: "
+        "1.0e-10, coordinates: absolute}"));
 
 }  // namespace
 }  // namespace codesign

@@ -66,7 +66,7 @@ void read_until(const YamlValue& root, const RobotDescription& robot, const Para
                 Study* study);
 /// Refuses what runs whose end depends on the design cannot have, after all else has been read.
 /// @throws InputError
-void check_moving_end(const YamlValue& root, const Study& study);
+void check_moving_end(const Study& study);
 
 /// The number of postures of `positions:`, or 0 without it. @throws InputError for a study that has
 /// blocks of a motion, too.

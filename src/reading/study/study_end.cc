@@ -90,16 +90,8 @@ void read_until(const YamlValue& root, const RobotDescription& robot, const Para
   study->until = std::make_shared<const SignalDescription>(std::move(until));
 }
 
-void check_moving_end(const YamlValue& root, const Study& study) {
+void check_moving_end(const Study& study) {
   if (!has_moving_end(study)) return;
-  if (study.until && study.solver.integrator == IntegratorKind::kIdas)
-    root.at("solver")
-        .at("integrator")
-        .fail("idas does not find the end that `until` asks for", "rosenbrock");
-  if (study.until && study.solver.gradient == GradientMethod::kAdjoint)
-    root.at("solver")
-        .at("gradient")
-        .fail("the adjoint does not go back over an end that `until` determines", "auto, direct");
   for (const WatchedSignal& watched : study.watched)
     if (has_band(watched))
       throw InputError({watched.where, watched.element,

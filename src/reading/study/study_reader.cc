@@ -1,8 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_reader.h"
 
-#include <algorithm>
-
 #include "description/excursions.h"
 #include "reading/parameter_table.h"
 #include "reading/study/study_blocks.h"
@@ -34,22 +32,16 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
   return {items[0].number(), items[1].number(), items[2].number()};
 }
 
-/// The adjoint can neither compute the derivatives of extreme values nor reverse the jumps of
-/// sampled controllers.
+/// The adjoint cannot compute the derivatives of extreme values.
 void refuse_adjoint(const YamlValue& root, const Study& study) {
-  if (study.solver.gradient != GradientMethod::kAdjoint) return;
-  const auto sampled = [](const ControllerDescription& controller) {
-    return controller.realization.is_sampled();
-  };
-  const YamlValue at = root.at("solver").at("gradient");
-  if (!study.watched.empty())
-    at.fail(
-        "the adjoint has no derivatives of the extreme values that path, final, objective.peak and "
-        "peaks in constraints need",
-        "auto, direct");
-  if (std::any_of(study.controllers.begin(), study.controllers.end(), sampled))
-    at.fail("the adjoint does not go back over the samples of controllers with sample_time",
-            "auto, direct");
+  if (study.solver.gradient != GradientMethod::kAdjoint || study.watched.empty()) return;
+  root.at("solver")
+      .at("gradient")
+      .fail(
+          "the adjoint has no derivatives of the extreme values that path, final, objective.peak "
+          "and "
+          "peaks in constraints need",
+          "auto, direct");
 }
 
 /// Postures are not integrated, and their derivatives need no choice of a method.
@@ -108,7 +100,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   if (const auto optimizer = root.find("optimizer"))
     study.optimizer = read_optimizer_options(*optimizer);
   refuse_adjoint(root, study);
-  check_moving_end(root, study);
+  check_moving_end(study);
   refuse_integrator_of_postures(root, study);
   return study;
 }

@@ -30,6 +30,14 @@ TEST(StudyEnd, AConditionEndsRuns) {
   EXPECT_EQ(study.until->where.line, 2);
 }
 
+// idas leaves such a run to rosenbrock, and the adjoint goes back over its end.
+TEST(StudyEnd, AConditionTakesAnySolver) {
+  for (const char* solver : {"integrator: idas", "gradient: adjoint"})
+    EXPECT_NO_THROW(
+        read_text("duration: 2.0\nuntil: \"${t > 1}\"\nsolver: {" + std::string(solver) + "}\n"))
+        << solver;
+}
+
 TEST(StudyEnd, OtherStudiesHaveAFixedEnd) {
   const Study study = read_text("duration: 2.0\nfinal: [{signal: end_time, at_most: 3.0}]\n");
   EXPECT_FALSE(has_moving_end(study));
