@@ -22,6 +22,15 @@ struct MethodChange {
   const char* method = "";  ///< as in `solver.method`, or "idas"
 };
 
+/// A stop that the study enforces and that gave way by more than 2 % of its range.
+struct StopExcess {
+  std::string joint;
+  bool is_upper = false;
+  double bound = 0.0;  ///< of the model [rad or m]
+  double worst = 0.0;  ///< the position farthest beyond it, at the end of a step [rad or m]
+  double time = 0.0;   ///< from when on [s]
+};
+
 /// A run of one design, integrated step by step: start(), then advance() and sample() as often as
 /// needed. Not thread-safe; any number of simulations may share one Problem, each in its own
 /// thread.
@@ -94,6 +103,8 @@ class Simulation {
   /// postures have none.
   Events events() const;
   std::int64_t event_count() const;
+  /// The stops of the run so far that gave way, in the order of their times.
+  const std::vector<StopExcess>& stops() const;
   /// Warnings of the run so far, such as `constraint_drift`, `energy_error` and `singular_start`;
   /// doc/warnings.md lists the codes.
   const Warnings& warnings() const;

@@ -10,11 +10,13 @@
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "jobs/setpoint_bounds.h"
+#include "mechanism/machine_numbers.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/starting_overlay.h"
 #include "reading/urdf/urdf_reader.h"
+#include "text/number_text.h"
 #include "text/table.h"
 
 namespace codesign::cli {
@@ -61,6 +63,13 @@ void print_table(const Counts& counts, std::ostream& out) {
   print_redundancy(counts, out);
 }
 
+void print_numbers(const std::vector<MachineNumber>& numbers, std::ostream& out) {
+  std::vector<std::string> rows;
+  for (const MachineNumber& n : numbers)
+    rows.push_back(n.joint + ", " + n.number + ": " + readable(n.value, 3) + " " + n.unit);
+  print_names("numbers that are not given and follow the machine", rows, out);
+}
+
 /// The limits that the start exceeds. @param warnings those of the start are appended.
 std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
                                               const std::vector<double>& parameters,
@@ -84,11 +93,13 @@ int check(const Arguments& arguments, const Console& console) {
   const Counts counts = count_equations(*system_of(problem), parameters, &status);
   Warnings warnings;
   const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters, &warnings);
+  const std::vector<MachineNumber> numbers = machine_numbers_of(problem, parameters);
   const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &warnings);
   if (status.ok())
     append(find_bounds_beyond_setpoints(problem, parameters, &console.cancel), &warnings);
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
+    print_numbers(numbers, console.out);
     for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
     print_recordings(recordings, console.out);
   }
@@ -97,6 +108,7 @@ int check(const Arguments& arguments, const Console& console) {
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = to_json(counts);
   object["limits_exceeded"] = to_json(crossings);
+  object["machine_numbers"] = to_json(numbers);
   if (study_of(problem).identification) object["recordings"] = to_json(recordings);
   add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, status, std::move(object), console);

@@ -79,6 +79,7 @@ void add_run(const Problem& problem, const RunSummary& run, const Json& counts, 
   add_events(run.events, object);
   object->update(counts);
   (*object)["limits_exceeded"] = to_json(run.crossings);
+  (*object)["machine_numbers"] = to_json(machine_numbers_of(problem, problem.parameters()));
   (*object)["series"] = std::move(series);
 }
 

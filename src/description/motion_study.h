@@ -100,14 +100,14 @@ struct ObjectiveTerm {
 };
 
 /// Which limits of URDF's `<limit>` are enforced, and the properties of the stops; theory (13c),
-/// (13d).
+/// (13d). Numbers that are not given follow the machine, (13i).
 struct LimitOptions {
-  bool effort = false;     ///< saturates the controllers' output
-  bool position = false;   ///< adds stops at `lower` and `upper`
-  double stiffness = 1e4;  ///< k of a stop [N/m or N m/rad]
-  double dissipation =
-      1.0;              ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
-  double width = 1e-3;  ///< w: depth over which the force sets in smoothly [m or rad]
+  bool effort = false;              ///< saturates the controllers' output
+  bool position = false;            ///< adds stops at `lower` and `upper`
+  std::optional<double> stiffness;  ///< k of a stop [N/m or N m/rad]
+  std::optional<double>
+      dissipation;  ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
+  std::optional<double> width;  ///< w: depth over which the force sets in smoothly [m or rad]
 };
 
 /// What of a study the equations of motion, their start, their integration and their gradients

@@ -55,7 +55,9 @@ struct FrictionDescription : FrictionNumbers<Quantity> {
   bool is_direct = false;  ///< in N m or N, theory (10a); else coefficients over a normal force
   bool is_directional =
       false;  ///< a number for motion against the axis is given; else they are unused
-  bool has_exponent = false;                             ///< viscous_exponent is given
+  bool has_exponent = false;        ///< viscous_exponent is given
+  bool transition_follows = false;  ///< transition_velocity is not given and follows the machine,
+                                    ///< theory (13i); its value is that without any mass
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };

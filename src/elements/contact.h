@@ -129,6 +129,21 @@ void stuck_slips(const StateView<T>& view, VectorX<T>* accelerations, VectorX<T>
   }
 }
 
+/// Sets the states of the friction laws to steady sliding at the loaded state, theory (13j), but
+/// those of contacts that start stuck and those that the study gives. @param s all extra states.
+template <class T>
+void begin_bristles(const StateView<T>& view, VectorX<T>* s) {
+  const System& system = view.system;
+  for (std::size_t k = 0; k < system.bristles().size(); ++k) {
+    const BristleContact& contact = system.bristles()[k];
+    if (!contact.model->steady || !system.begins_steadily(k)) continue;
+    const BristleState<T> steady =
+        contact.model->steady.of<T>(bristle_slip(view, contact).u, bristle_numbers(view, contact));
+    for (int j = 0; j < contact.size; ++j) (*s)[contact.first + j] = steady.zeta[j];
+    if (contact.dwells()) (*s)[contact.dwell_state()] = steady.dwell;
+  }
+}
+
 /// The body whose rotation turns the deflections of a contact, or -1 if none does. Deflections are
 /// given in the axes of the slip. Body i carries these axes for slides, hinges and planes. For a
 /// ball they are the axes of the ground, so that its deflections must be turned with the socket,

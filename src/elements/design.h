@@ -10,6 +10,7 @@
 #include "joints/pair_rows.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
+#include "mechanism/machine_numbers.h"
 #include "system/system.h"
 
 namespace codesign {
@@ -52,6 +53,7 @@ struct Design {
   void set(const System& system, const std::vector<T>& values);
 
   MassWorkspace<T> mass_workspace;  ///< workspace of set()
+  MachineScale<T> scale;            ///< likewise
 };
 
 /// Evaluates Design::loads, theory (13g), from the design's parameters and link constants, which
@@ -82,6 +84,8 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   parameters = values;
   for (int k = 0; k < 3; ++k) gravity[k] = T(system.study().gravity[to_index(k)]);
   evaluate_constants(system.robot(), system.topology(), parameters, &mass_workspace, &constants);
+  set_machine_numbers(system.robot(), system.topology(), system.study(), parameters, &scale,
+                      &constants);
   set_loads(system, this);
   // Observers may read more signals than the study. What is recorded has the time only if needed.
   if (!std::is_same_v<T, Traced> || system.reads_time()) clock.set(clock_function(), parameters);

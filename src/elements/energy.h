@@ -121,10 +121,10 @@ T joint_energy(const StateView<T>& view, const JointLoad& load) {
     energy += T(0.5) * d.stiffness * turned * turned;
   }
   if (load.stop) {
-    const LimitOptions& stop = view.system.study().limits;
+    const StopConstants<T>& stop = d.stop;
     const T below = d.lower - position, above = position - d.upper;
-    energy += stop_energy(above, stop.stiffness, stop.width) +
-              stop_energy(below, stop.stiffness, stop.width);
+    energy += stop_energy<T>(above, stop.stiffness, stop.width) +
+              stop_energy<T>(below, stop.stiffness, stop.width);
   }
   return energy;
 }

@@ -99,29 +99,34 @@ T passive_load(const StateView<T>& view, int pair, int element, const JointLoad&
 /// The decisions of stops, as parts for name_part().
 constexpr int kUpperStop = 0, kLowerStop = 1;
 
+template <class T>
+const StopConstants<T>& stop_of(const StateView<T>& view, const JointLoad& load) {
+  return view.dynamics(load.pair, load.element).stop;
+}
+
 /// L of both stops of a coordinate [N or N m], theory (13d): positive beyond the upper limit,
 /// negative beyond the lower one.
 /// @param rate of the coordinate. @param dissipation c of (13d) [s/m or s/rad]; 0 leaves the
 /// elastic part.
 template <class T>
-T stop_load(const StateView<T>& view, const JointLoad& load, const T& rate, double dissipation) {
+T stop_load(const StateView<T>& view, const JointLoad& load, const T& rate, const T& dissipation) {
   const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
-  const LimitOptions& stop = view.system.study().limits;
+  const StopConstants<T>& stop = stop_of(view, load);
   const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position,
           above = position - d.upper;
   const NamedSwitches<T> named(position, load);
   name_part(position, kUpperStop);
-  const T at_upper = joint_stop(above, rate, stop.stiffness, dissipation, stop.width);
+  const T at_upper = joint_stop<T>(above, rate, stop.stiffness, dissipation, stop.width);
   name_part(position, kLowerStop);
-  return at_upper - joint_stop(below, T(-rate), stop.stiffness, dissipation, stop.width);
+  return at_upper - joint_stop<T>(below, T(-rate), stop.stiffness, dissipation, stop.width);
 }
 
 /// The part of stop_load() that takes energy from the motion, k delta (h - 1): the load less its
 /// elastic part.
 template <class T>
 T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rate) {
-  const T elastic = stop_load(view, load, rate, 0.0);
-  return stop_load(view, load, rate, view.system.study().limits.dissipation) - elastic;
+  const T elastic = stop_load(view, load, rate, T(0.0));
+  return stop_load(view, load, rate, stop_of(view, load).dissipation) - elastic;
 }
 
 /// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if
@@ -143,7 +148,7 @@ T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   if (load.friction) value += annotated_friction(view, load, rate, nullptr);
   if (load.passive || load.constant_friction)
     value += passive_load(view, load.pair, load.element, load, rate);
-  if (load.stop) value += stop_load(view, load, rate, view.system.study().limits.dissipation);
+  if (load.stop) value += stop_load(view, load, rate, stop_of(view, load).dissipation);
   if (load.elastic >= 0) {
     const T tau = elastic_torque(view, load.elastic);
     value += load.is_motor ? tau : T(-tau);

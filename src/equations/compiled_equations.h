@@ -96,6 +96,8 @@ class CompiledEquations {
   void track_turns(State<T>* state);
   /// stuck_slips() at a state. @param accelerations, limits of their sizes.
   void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
+  /// begin_bristles() at a state; other states stay.
+  void begin_bristles(State<T>* state);
   /// The error of a controller; its output at a sample, which updates its memory in state->s.
   T rated_error(int controller, const State<T>& state);
   T sample(int controller, bool is_first, State<T>* state);

@@ -86,6 +86,13 @@ void CompiledEquations<T>::stuck_slips(const State<T>& state, VectorX<T>* accele
 }
 
 template <class T>
+void CompiledEquations<T>::begin_bristles(State<T>* state) {
+  s_.resize(state->s.size());
+  run(EquationFunction::kBristles, *state, {s_, {}, {}, {}});
+  state->s = s_;
+}
+
+template <class T>
 T CompiledEquations<T>::rated_error(int controller, const State<T>& state) {
   return signal(controller_function(controller, ControllerFunction::kError), state);
 }
@@ -142,6 +149,7 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
   template void CompiledEquations<T>::place(const VectorX<T>&, const VectorX<T>&, State<T>*);     \
   template void CompiledEquations<T>::track_turns(State<T>*);                                     \
   template void CompiledEquations<T>::stuck_slips(const State<T>&, VectorX<T>*, VectorX<T>*);     \
+  template void CompiledEquations<T>::begin_bristles(State<T>*);                                  \
   template T CompiledEquations<T>::rated_error(int, const State<T>&);                        \
   template T CompiledEquations<T>::sample(int, bool, State<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)

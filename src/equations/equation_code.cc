@@ -218,6 +218,13 @@ void EquationCode::record_start(RecordedEquations* equations) {
   });
   if (!system_.stuck().empty())
     record(EquationFunction::kStuckSlips, [&] { return equations->record_stuck_slips(); });
+  if (system_.begins_bristles())
+    record(EquationFunction::kBristles, [&] {
+      VectorX<Traced> s = state.s;
+      formulas.load(state);
+      formulas.begin_bristles(&s);
+      return std::vector<VectorX<Traced>>{s};
+    });
   for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
     formulas.load(state);

@@ -49,6 +49,7 @@ enum class EquationFunction : std::size_t {
   kPlacement = 0,   ///< q and v at the tree coordinates theta and their rates, in place of q and v
   kTurns,           ///< the joint positions in State::turns
   kStuckSlips,      ///< stuck_slips(): accelerations, limits
+  kBristles,        ///< the extra states after begin_bristles()
   kFirstController  ///< three functions of each controller: its error; the output and the extra
                     ///< states after its first sample; after others
 };

@@ -96,6 +96,16 @@ void Equations<T>::stuck_slips(const State<T>& state, VectorX<T>* accelerations,
 }
 
 template <class T>
+void Equations<T>::begin_bristles(State<T>* state) {
+  if constexpr (kIsReal) {
+    formulas_->load(*state);
+    formulas_->begin_bristles(&state->s);
+  } else {
+    start_.begin_bristles(state);
+  }
+}
+
+template <class T>
 T Equations<T>::sample(int controller, bool is_first, State<T>* state) {
   if constexpr (kIsReal)
     return formulas_->sample(controller, is_first, &state->s);

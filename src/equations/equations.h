@@ -91,6 +91,9 @@ class Equations {
   void track_turns(State<T>* state);
   /// stuck_slips() at a state. @param accelerations, limits of their sizes, overwritten.
   void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
+  /// Sets the states of friction laws to steady sliding at the positions and velocities of a state,
+  /// theory (13j); other states stay. For systems that System::begins_bristles().
+  void begin_bristles(State<T>* state);
   /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest,
   /// first samples taken.
   void begin_controllers(State<T>* state);

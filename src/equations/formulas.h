@@ -82,6 +82,8 @@ class Formulas {
   ContactFriction<T> contact(int pair) const;
   /// stuck_slips() of the loaded state.
   void stuck_slips(VectorX<T>* accelerations, VectorX<T>* limits) const;
+  /// begin_bristles() at the loaded state. @param s all extra states.
+  void begin_bristles(VectorX<T>* s) const;
   /// The force of the k-th spring-damper of RobotDescription::spring_dampers, theory (13b).
   SpringForce<T> spring(std::size_t k) const;
   /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or

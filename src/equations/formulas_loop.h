@@ -160,6 +160,11 @@ void Formulas<T>::stuck_slips(VectorX<T>* accelerations, VectorX<T>* limits) con
 }
 
 template <class T>
+void Formulas<T>::begin_bristles(VectorX<T>* s) const {
+  codesign::begin_bristles(view_, s);
+}
+
+template <class T>
 SpringForce<T> Formulas<T>::spring(std::size_t k) const {
   return spring_at(view_, k);
 }

@@ -92,6 +92,49 @@ Bristle<T> lugre(const Vector3<T>& u, const BristleState<T>& state, const Fricti
   return b;
 }
 
+// Steady sliding, theory (13j). Below V_s the states fall to those at rest, which are zero, so that
+// velocities of rounding errors deflect nothing.
+
+/// V_s / v_s.
+constexpr double kSteadyVelocity = 1e-3;
+
+/// zeta = g(u) dir(u) of the LuGre law, with the direction of direction_per_speed() for V_s.
+template <class T>
+BristleState<T> steady_lugre(const Vector3<T>& u, const FrictionConstants<T>& c) {
+  using std::exp;
+  const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
+  const T g = c.mu_dynamic + (c.mu_static - c.mu_dynamic) * exp(-square * v2);
+  BristleState<T> state;
+  state.zeta =
+      (g * direction_per_speed<T>(square, T(T(kSteadyVelocity) * c.transition_velocity))) * u;
+  return state;
+}
+
+/// Of Gonthier's law s_dw = s and zeta = c + sigma_1 s u/(1 - s), where zeta' = 0. Bristles of a
+/// slow contact deflect beyond the cut of friction, F: they start with |zeta| = F, where the
+/// friction is the same.
+template <class T>
+BristleState<T> steady_gonthier(const Vector3<T>& u, const FrictionConstants<T>& c) {
+  using std::exp;
+  using std::sqrt;
+  constexpr double kDirectionVelocity = 0.1;  // as in gonthier()
+  const T square = dot(u, u), v2 = T(1.0) / (c.transition_velocity * c.transition_velocity);
+  const T s = exp(-square * v2), left = T(1.0) - s;
+  const T pushed = c.mu_dynamic *
+                   direction_per_speed<T>(square, T(T(kDirectionVelocity) * c.transition_velocity)),
+          direction = direction_per_speed<T>(square, T(T(kSteadyVelocity) * c.transition_velocity));
+  BristleState<T> state;
+  state.dwell = s * square * direction * direction;
+  // F at this dwell state.
+  const T most = c.mu_dynamic + (c.mu_static - c.mu_dynamic) * s;
+  // zeta = f u: beyond the cut, f |u| > F, it is cut. Without a division by 1 - s, which rounds to
+  // zero at low speeds.
+  const T rest = left * most * direction - left * pushed, held = c.bristle_damping * s;
+  const bool is_cut = !is_less(held, rest, true);
+  state.zeta = (is_cut ? T(most * direction) : T(pushed + held / left)) * u;
+  return state;
+}
+
 /// A contact whose friction has states. In the vector of extra states it has one zeta per slip
 /// coordinate, then s_dw if the law has it.
 struct BristleContact {

@@ -48,20 +48,21 @@ T rounded_ramp_integral(const T& g, const T& width) {
 /// @param stiffness k [N/m or N m/rad], @param dissipation c [s/m or s/rad], @param width w > 0 [m
 /// or rad].
 template <class T>
-T joint_stop(const T& excess, const T& rate, double stiffness, double dissipation, double width) {
+T joint_stop(const T& excess, const T& rate, const T& stiffness, const T& dissipation,
+             const T& width) {
   using std::sqrt;
   if (!is_below(T(0.0), excess, false)) return T(0.0);
-  const T depth = rounded_ramp(excess, T(width));
-  const T y = T(dissipation) * rate, root = sqrt(T(1.0) + y * y);
+  const T depth = rounded_ramp(excess, width);
+  const T y = dissipation * rate, root = sqrt(T(1.0) + y * y);
   // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.
   const T growth = is_less(y, T(0.0), false) ? T(1.0) / (root - y) : y + root;
-  return T(stiffness) * depth * growth;
+  return stiffness * depth * growth;
 }
 
 /// The elastic energy of a stop, the integral of k delta(g) by g from 0 [J].
 template <class T>
-T stop_energy(const T& excess, double stiffness, double width) {
-  return T(stiffness) * rounded_ramp_integral(excess, T(width));
+T stop_energy(const T& excess, const T& stiffness, const T& width) {
+  return stiffness * rounded_ramp_integral(excess, width);
 }
 
 /// The force of a spring-damper.

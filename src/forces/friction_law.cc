@@ -19,7 +19,7 @@ T brown_mcphee_curve(const T& v, const T& mu_static, const T& mu_dynamic,
 }
 
 // name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic,
-// has_stribeck_velocity, only_above_mu_dynamic
+// has_stribeck_velocity, only_above_mu_dynamic, steady
 constexpr FrictionLaw kFrictionTable[] = {
     {"brown_mcphee",
      "Brown and McPhee",
@@ -29,8 +29,28 @@ constexpr FrictionLaw kFrictionTable[] = {
      false,
      true,
      false},
-    {"gonthier", "Gonthier", {}, {}, {gonthier, gonthier}, true, false, false},
-    {"lugre", "LuGre", {}, {}, {lugre, lugre}, false, false, true, false, true},
+    {"gonthier",
+     "Gonthier",
+     {},
+     {},
+     {gonthier, gonthier},
+     true,
+     false,
+     false,
+     false,
+     false,
+     {steady_gonthier, steady_gonthier}},
+    {"lugre",
+     "LuGre",
+     {},
+     {},
+     {lugre, lugre},
+     false,
+     false,
+     true,
+     false,
+     true,
+     {steady_lugre, steady_lugre}},
     {"stribeck", "Stribeck", {stribeck, stribeck}, {}, {}, false, true, false, true},
 };
 

@@ -10,8 +10,8 @@
 
 namespace codesign {
 
-/// The states of a friction law with bristles; theory (13e), (13f). They start at zero, or hold a
-/// joint that starts stuck, (13h).
+/// The states of a friction law with bristles; theory (13e), (13f). They start in steady sliding,
+/// (13j), which at rest is zero, or hold a joint that starts stuck, (13h).
 template <class T>
 struct BristleState {
   Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per
@@ -41,6 +41,11 @@ template <class T>
 using BristleFunction = Bristle<T> (*)(const Vector3<T>& u, const BristleState<T>& state,
                                        const FrictionNumbers<T>& c);
 
+/// The states of a contact that has slid at u for long; theory (13j). Zero at rest, and continuous
+/// in u.
+template <class T>
+using SteadyFunction = BristleState<T> (*)(const Vector3<T>& u, const FrictionNumbers<T>& c);
+
 /// A friction law, one row of the table in friction_law.cc: its name, and one function of values. A
 /// law without states has `curve`, a law with states `bristle`.
 struct FrictionLaw {
@@ -57,6 +62,7 @@ struct FrictionLaw {
   bool has_stribeck_velocity = false;  ///< `curve` reads it
   bool only_above_mu_dynamic = false;  ///< transition_velocity shapes nothing but the friction
                                        ///< above mu_d: without mu_s > mu_d it has no effect
+  Law<SteadyFunction> steady{};        ///< where contacts start that slip; without it at zero
 
   /// Whether the law uses a number; other numbers are refused, since they would have no effect.
   bool uses(const FrictionNumberRule& rule) const {

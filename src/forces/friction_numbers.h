@@ -42,6 +42,7 @@ struct FrictionNumberRule {
     kRefused,
     kStandard,
     kLengthOfOne,
+    kOfMachine,  ///< follows the machine, theory (13i)
     kPinRadius,
     kTenTransitions,
     kMuStatic,
@@ -91,7 +92,7 @@ void visit_friction_numbers(const Visit& visit, Values*... of) {
   visit(R{"friction_arm", false, M::kPinRadius, 0.0, U::kAll, F::kCoefficients},
         of->friction_arm...);
   visit(R{"preload", true, M::kStandard, 0.0, U::kAll, F::kCoefficients}, of->preload...);
-  visit(R{"smoothing", false, M::kStandard, 1e-3, U::kAll, F::kCoefficients, false, true},
+  visit(R{"smoothing", false, M::kOfMachine, 0.0, U::kAll, F::kCoefficients, false, true},
         of->smoothing...);
   visit(R{"viscous", true}, of->viscous...);
   visit(R{"viscous_exponent", false, M::kStandard, 1.0}, of->viscous_exponent...);

@@ -26,6 +26,7 @@ RosenbrockStep<T>::RosenbrockStep(const CompiledSystem& system, const Rosenbrock
     : system_(system),
       layout_(system.layout()),
       at_(layout_),
+      rate_sizes_(layout_),
       tableau_(&tableau),
       equations_(system),
       turns_(system),
@@ -280,17 +281,18 @@ template <class T>
 double RosenbrockStep<T>::error(double relative_tolerance, double absolute_tolerance) const {
   const VectorX<T>& estimate = tableau_->is_explicit() ? estimate_ : increments_[count() - 1];
   double largest = 0.0;
-  const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to) {
+  const auto add = [&](int first, const VectorX<T>& from, const VectorX<T>& to, const auto& size) {
     for (Eigen::Index k = 0; k < from.size(); ++k) {
       const double scale =
-          absolute_tolerance +
-          relative_tolerance * std::max(std::abs(value_of(from[k])), std::abs(value_of(to[k])));
+          absolute_tolerance + relative_tolerance * std::max(size(from, k), size(to, k));
       largest = std::max(largest, std::abs(value_of(estimate[first + k])) / scale);
     }
   };
-  add(at_.x(), state_.q, end_.q);
-  add(at_.v(), state_.v, end_.v);
-  add(at_.s(), state_.s, end_.s);
+  const auto own = [](const VectorX<T>& y, Eigen::Index k) { return std::abs(value_of(y[k])); };
+  const auto of_rate = [this](const VectorX<T>& y, Eigen::Index k) { return rate_sizes_.of(y, k); };
+  add(at_.x(), state_.q, end_.q, own);
+  add(at_.v(), state_.v, end_.v, of_rate);
+  add(at_.s(), state_.s, end_.s, own);
   // With its own estimate the pair's error was up to ten times that of rodas4 at the same
   // tolerance, doc/decisions/0084-explicit-pair.md.
   constexpr double kPairCaution = 5.0;

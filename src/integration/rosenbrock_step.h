@@ -8,6 +8,7 @@
 #include "equations/equations.h"
 #include "equations/turn_follower.h"
 #include "integration/increment.h"
+#include "integration/rate_sizes.h"
 #include "integration/stage_matrix.h"
 #include "integration/tableau.h"
 #include "math/arrays.h"
@@ -60,8 +61,8 @@ class RosenbrockStep {
   /// singular or a value is not finite.
   bool attempt(double h);
   /// Scaled error of the last attempt, acceptable up to 1: the largest |u_last| / (absolute +
-  /// relative max(|y|, |y_1|)) over (q, v, s). A mean would hide one fast joint among many bodies
-  /// at rest.
+  /// relative max(|y|, |y_1|)) over (q, v, s), with |y| of velocities as in RateSizes. A mean would
+  /// hide one fast joint among many bodies at rest.
   double error(double relative_tolerance, double absolute_tolerance) const;
   /// Accepts the last attempt: linearizes at its end and projects. False if the augmented matrix is
   /// singular there.
@@ -159,6 +160,7 @@ class RosenbrockStep {
   const CompiledSystem& system_;
   const Layout& layout_;
   const IncrementLayout at_;
+  const RateSizes rate_sizes_;
   const RosenbrockTableau* tableau_;
   mutable Equations<T> equations_;  ///< evaluations write to their memory
   mutable TurnFollower<T> turns_;   ///< likewise

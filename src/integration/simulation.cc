@@ -10,6 +10,7 @@
 #include "integration/integrator.h"
 #include "integration/run_ends.h"
 #include "integration/simulation_of.h"
+#include "integration/stop_watch.h"
 #include "math/cpu_timer.h"
 #include "observation/observer.h"
 #include "problem/load_problem.h"
@@ -35,13 +36,15 @@ class Simulation::Implementation {
       : system_(std::move(system)),
         parameters_(parameters),
         observer_(*system_, signals),
-        integrator_(make_integrator(*system_)) {
+        integrator_(make_integrator(*system_)),
+        stops_(*system_) {
     sample_.resize(system_->layout());
   }
 
   Status start() {
     const CpuTimer timer;
     const Status status = integrator_->start(parameters_);
+    stops_.start();
     statistics_ = integrator_->statistics();
     statistics_.cpu_seconds += timer.seconds();
     return status;
@@ -55,8 +58,7 @@ class Simulation::Implementation {
     Status status;
     while (status.ok() && is_before(time)) {
       const double now = integrator_->state().t;
-      status = integrator_->advance(
-          now < duration && time <= duration ? duration : std::max(time, now) + duration);
+      status = step(now < duration && time <= duration ? duration : std::max(time, now) + duration);
     }
     keep_statistics(timer);
     return status;
@@ -65,7 +67,7 @@ class Simulation::Implementation {
   Status advance_to(double time) {
     const CpuTimer timer;
     Status status;
-    while (status.ok() && is_before(time)) status = integrator_->advance(time);
+    while (status.ok() && is_before(time)) status = step(time);
     keep_statistics(timer);
     return status;
   }
@@ -110,9 +112,15 @@ class Simulation::Implementation {
   const std::vector<MethodChange>& methods() const { return integrator_->methods(); }
   Events events() const { return events_of(*system_, integrator_->events()); }
   std::int64_t event_count() const { return integrator_->events().count(); }
+  const std::vector<StopExcess>& stops() const { return stops_.excesses(); }
   const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
 
  private:
+  Status step(double limit) {
+    Status status = integrator_->advance(limit);
+    if (status.ok()) stops_.look(integrator_->state(), &integrator_->equations());
+    return status;
+  }
   /// Rounding may leave the end of a step, or an instant of a controller, a last bit before `time`.
   bool is_before(double time) const {
     return !integrator_->is_ended() &&
@@ -128,6 +136,7 @@ class Simulation::Implementation {
   std::vector<double> parameters_;
   Observer observer_;
   std::unique_ptr<Integrator> integrator_;
+  StopWatch stops_;
   State<double> sample_;
   Statistics statistics_;
   mutable Warnings warnings_;
@@ -177,6 +186,7 @@ const Statistics& Simulation::statistics() const { return implementation_->stati
 const std::vector<MethodChange>& Simulation::methods() const { return implementation_->methods(); }
 Events Simulation::events() const { return implementation_->events(); }
 std::int64_t Simulation::event_count() const { return implementation_->event_count(); }
+const std::vector<StopExcess>& Simulation::stops() const { return implementation_->stops(); }
 const Warnings& Simulation::warnings() const { return implementation_->warnings(); }
 
 // Where a run ends by its condition, only the run tells: it is computed once more for the samples.

@@ -6,7 +6,9 @@
 
 #include "assembly/count_equations.h"
 #include "description/study.h"
+#include "elements/design.h"
 #include "ensemble/ensemble.h"
+#include "equations/compiled_system.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
 #include "optimization/result_report.h"
@@ -87,6 +89,22 @@ Json to_json(const std::vector<LimitCrossing>& crossings) {
                      {"bound", c.bound},
                      {"worst", c.worst},
                      {"time", c.time}});
+  return array;
+}
+
+std::vector<MachineNumber> machine_numbers_of(const Problem& problem,
+                                              const std::vector<double>& parameters) {
+  const CompiledSystem& system = *system_of(problem);
+  Design<double> design;
+  design.set(system, parameters);
+  return machine_numbers(system.robot(), system.topology(), system.study(), design.constants);
+}
+
+Json to_json(const std::vector<MachineNumber>& numbers) {
+  Json array = Json::array();
+  for (const MachineNumber& n : numbers)
+    array.push_back(
+        {{"joint", n.joint}, {"number", n.number}, {"value", n.value}, {"unit", n.unit}});
   return array;
 }
 

@@ -16,12 +16,18 @@
 
 namespace codesign {
 
+struct MachineNumber;
+
 /// One entry per member of Counts, with the members' names.
 Json to_json(const Counts& counts);
 /// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
 Json to_json(const InputError& error);
 /// `[{joint, limit, bound, worst, time}]`
 Json to_json(const std::vector<LimitCrossing>& crossings);
+/// machine_numbers() of a design; and each as joint, number, value and unit.
+std::vector<MachineNumber> machine_numbers_of(const Problem& problem,
+                                              const std::vector<double>& parameters);
+Json to_json(const std::vector<MachineNumber>& numbers);
 /// Sets `events`, a list of `{time, element, object, expression, direction, kind}`, and
 /// `event_count`.
 void add_events(const Events& events, Json* object);

@@ -6,13 +6,18 @@
 #include <sstream>
 
 #include "description/study.h"
+#include "elements/design.h"
+#include "equations/compiled_system.h"
 #include "integration/simulation_of.h"
+#include "integration/stop_watch.h"
 #include "jobs/csv_writer.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
 #include "jobs/shown_signals.h"
+#include "jobs/smoothing_watch.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
+#include "mechanism/motor_sides.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
@@ -111,19 +116,22 @@ LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parame
     : LimitWatch(problem, parameters, names, study_of(problem).limits) {}
 
 LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parameters,
-                       const FrameNames& names, const LimitOptions& enforced)
-    : absolute_margin_(study_of(problem).solver.absolute_tolerance),
-      relative_margin_(study_of(problem).solver.relative_tolerance) {
+                       const FrameNames& names, const LimitOptions& enforced) {
+  const SolverOptions& solver = study_of(problem).solver;
   for (const JointDescription& joint : robot_of(problem).joints) {
     const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
     if (!joint.limit || found == names.joints.end()) continue;
-    const auto watch = [&](const char* limit, const Quantity& bound) {
-      watched_.push_back(
-          {to_index(found - names.joints.begin()), joint.name, limit, bound.at(parameters), -1});
+    const auto watch = [&](const char* limit, const Quantity& bound, double least = 0.0) {
+      const double at = bound.at(parameters),
+                   margin = solver.absolute_tolerance + solver.relative_tolerance * std::abs(at);
+      watched_.push_back({to_index(found - names.joints.begin()), joint.name, limit, at,
+                          std::max(margin, least), -1});
     };
-    if (has_stops(joint) && !enforced.position) {
-      watch("lower", joint.limit->lower);
-      watch("upper", joint.limit->upper);
+    if (has_stops(joint)) {
+      const double range = joint.limit->upper.at(parameters) - joint.limit->lower.at(parameters),
+                   least = enforced.position ? kStopGivesWay * range : 0.0;
+      watch("lower", joint.limit->lower, least);
+      watch("upper", joint.limit->upper, least);
     }
     if (joint.limit->bounds_velocity()) watch("velocity", joint.limit->velocity);
     if (joint.limit->bounds_effort() && !enforced.effort) watch("effort", joint.limit->effort);
@@ -133,7 +141,7 @@ LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parame
 void LimitWatch::observe(const Frame& frame) {
   for (Watched& watched : watched_) {
     const JointSample& sample = frame.joints[watched.sample];
-    const double margin = absolute_margin_ + relative_margin_ * std::abs(watched.bound);
+    const double margin = watched.margin;
     if (watched.limit == "lower")
       note(&watched, sample.position, sample.position < watched.bound - margin, frame.time);
     if (watched.limit == "upper")
@@ -144,6 +152,13 @@ void LimitWatch::observe(const Frame& frame) {
     if (watched.limit == "effort")
       note(&watched, sample.effort, std::abs(sample.effort) > watched.bound + margin, frame.time);
   }
+}
+
+void LimitWatch::observe(const std::vector<StopExcess>& stops) {
+  for (const StopExcess& stop : stops)
+    for (Watched& watched : watched_)
+      if (watched.joint == stop.joint && watched.limit == (stop.is_upper ? "upper" : "lower"))
+        note(&watched, stop.worst, true, stop.time);
 }
 
 void LimitWatch::note(Watched* watched, double value, bool beyond, double time) {
@@ -158,6 +173,7 @@ void LimitWatch::note(Watched* watched, double value, bool beyond, double time) 
   const double largest =
       position ? std::abs(crossing.worst - watched->bound) : std::abs(crossing.worst);
   if (excess > largest) crossing.worst = value;
+  crossing.time = std::min(crossing.time, time);
 }
 
 std::string describe(const LimitCrossing& crossing) {
@@ -168,17 +184,33 @@ std::string describe(const LimitCrossing& crossing) {
 
 TransitionWatch::TransitionWatch(const Problem& problem, const std::vector<double>& parameters,
                                  const FrameNames& names) {
-  for (const JointDescription& joint : robot_of(problem).joints) {
-    const auto found = std::find(names.joints.begin(), names.joints.end(), joint.name);
-    if (found == names.joints.end()) continue;
-    const auto watch = [&](const FrictionDescription& friction, const char* element) {
-      if (friction.model->bristle) return;  // bristles stick below their Stribeck velocity
-      watched_.push_back({to_index(found - names.joints.begin()), &friction,
-                          joint.element() + element, friction.transition_velocity.at(parameters)});
-    };
-    if (joint.friction && joint.friction->is_direct) watch(*joint.friction, " <codesign:friction>");
-    if (joint.actuator && joint.actuator->gear)
-      watch(joint.actuator->gear->slip, " <codesign:actuator>");
+  const CompiledSystem& system = *system_of(problem);
+  const RobotDescription& robot = system.robot();
+  Design<double> design;
+  design.set(system, parameters);
+  const auto watch = [&](const JointDescription& joint, const FrictionDescription& friction,
+                         double transition, const char* element) {
+    const std::string name = joint_of_motor(robot, joint.name);
+    const auto found = std::find(names.joints.begin(), names.joints.end(), name);
+    // Bristles stick below their Stribeck velocity.
+    if (found == names.joints.end() || friction.model->bristle) return;
+    watched_.push_back({to_index(found - names.joints.begin()), &friction,
+                        robot.joints[to_index(joint_named(robot, name))].element() + element,
+                        transition});
+  };
+  for (std::size_t p = 0; p < system.topology().pairs.size(); ++p) {
+    const Pair& pair = system.topology().pairs[p];
+    const PairConstants<double>& numbers = design.constants.pairs[p];
+    if (pair.friction_joint >= 0 && pair.friction_is_direct) {
+      const JointDescription& joint = robot.joints[to_index(pair.friction_joint)];
+      watch(joint, *joint.friction, numbers.friction.transition_velocity, " <codesign:friction>");
+    }
+    for (std::size_t e = 0; e < pair.chain.size(); ++e) {
+      const JointDescription& joint = robot.joints[to_index(pair.chain[e].joint)];
+      if (joint.actuator && joint.actuator->gear && joint.motor < 0)
+        watch(joint, joint.actuator->gear->slip, numbers.dynamics[e].gear.slip.transition_velocity,
+              " <codesign:actuator>");
+    }
   }
 }
 
@@ -208,15 +240,20 @@ Warnings TransitionWatch::warnings() const {
 RunSummary record_run(const Problem& problem, const std::vector<double>& parameters,
                       const std::vector<SignalDescription>& signals, int samples,
                       const RowSink& sink, const std::atomic<bool>* cancel) {
-  Simulation simulation = simulation_of(system_of(problem), parameters, signals);
+  std::vector<SignalDescription> all = signals;
+  for (SignalDescription& torque : SmoothingWatch::signals(problem))
+    all.push_back(std::move(torque));
+  Simulation simulation = simulation_of(system_of(problem), parameters, all);
   LimitWatch watch(problem, parameters, simulation.names());
   TransitionWatch transitions(problem, parameters, simulation.names());
+  SmoothingWatch smoothing(problem, parameters, simulation.names());
   std::vector<double> row;
   const auto observer = [&](const Frame& frame) {
     watch.observe(frame);
     transitions.observe(frame);
+    smoothing.observe(frame, signals.size());
     row.assign(1, frame.time);
-    row.insert(row.end(), frame.signals.begin(), frame.signals.end());
+    row.insert(row.end(), frame.signals.begin(), frame.signals.begin() + to_signed(signals.size()));
     sink(row);
     return true;
   };
@@ -232,6 +269,8 @@ RunSummary record_run(const Problem& problem, const std::vector<double>& paramet
   summary.events = simulation.events();
   summary.warnings = simulation.warnings();
   if (summary.status.ok()) append(transitions.warnings(), &summary.warnings);
+  if (summary.status.ok()) append(smoothing.warnings(), &summary.warnings);
+  watch.observe(simulation.stops());
   const Study& study = study_of(problem);
   const bool has_term = std::any_of(study.watched.begin(), study.watched.end(), is_term);
   if (summary.status.ok() && has_objective(study) && !has_term &&
@@ -283,7 +322,9 @@ DesignRecord record_design(const Problem& problem, const std::vector<double>& pa
   // If the run ends early, the integrals would not cover the whole study.
   if (record.status.ok() && postures == 0)
     add_energies(shown, watched, simulation.time(), &record.summary);
+  limits.observe(simulation.stops());
   record.summary["limits_exceeded"] = to_json(limits.crossings());
+  record.summary["machine_numbers"] = to_json(machine_numbers_of(problem, parameters));
   add_events(simulation.events(), &record.summary);
   record.summary["poses"] = poses.json(simulation.names().links);
   return record;

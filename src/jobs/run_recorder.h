@@ -24,12 +24,13 @@ struct LimitCrossing {
   double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s
                        ///< or m/s, N m or N]
   double worst = 0.0;  ///< the value farthest beyond the limit
-  double time = 0.0;   ///< time of the first sample beyond the limit [s]
+  double time = 0.0;   ///< time of the first sample, or step of a stop, beyond the limit [s]
 };
 
-/// Finds joints that exceed their `<limit>` during a run: velocities always, positions and efforts
-/// unless the study enforces them. A limit counts as exceeded if the excess is more than
-/// absolute_tolerance + relative_tolerance * |bound| of the solver.
+/// Finds joints that exceed their `<limit>` during a run: velocities always, efforts unless the
+/// study enforces them, and positions. A limit counts as exceeded if the excess is more than
+/// absolute_tolerance + relative_tolerance * |bound| of the solver; that of a stop which the study
+/// enforces if it gives way by more than 2 % of its range.
 class LimitWatch {
  public:
   /// @param parameters all named parameters. @param names of the frames to observe. @param enforced
@@ -40,6 +41,8 @@ class LimitWatch {
              const FrameNames& names);
 
   void observe(const Frame& frame);
+  /// Adds what happened between the frames. @param stops Simulation::stops() of the run.
+  void observe(const std::vector<StopExcess>& stops);
   const std::vector<LimitCrossing>& crossings() const { return crossings_; }
 
  private:
@@ -47,11 +50,11 @@ class LimitWatch {
     std::size_t sample = 0;  ///< index into Frame::joints
     std::string joint, limit;
     double bound = 0.0;
-    int crossing = -1;  ///< index into crossings_ once the limit was exceeded
+    double margin = 0.0;  ///< beyond the bound
+    int crossing = -1;    ///< index into crossings_ once the limit was exceeded
   };
   void note(Watched* watched, double value, bool beyond, double time);
 
-  double absolute_margin_, relative_margin_;
   std::vector<Watched> watched_;
   std::vector<LimitCrossing> crossings_;
 };

@@ -42,13 +42,22 @@ struct SlipConstants {
   std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)};  ///< viscous load per rate [N s/m or N m s/rad]
 };
 
+/// The numbers of a joint's stops; theory (13d).
+template <class T>
+struct StopConstants {
+  T stiffness{1.0};    ///< k [N/m or N m/rad]
+  T dissipation{0.0};  ///< c [s/m or s/rad]
+  T width{1.0};        ///< w [m or rad]
+};
+
 /// `<dynamics>`, `<limit>`, torsion spring and actuator of one joint. Units as in JointDescription.
 template <class T>
 struct JointDynamicsConstants {
   T damping{0.0}, dry_friction{0.0};                          ///< `<dynamics>`
   T stiffness{0.0}, spring_damping{0.0}, free_position{0.0};  ///< torsion spring
   T lower{0.0}, upper{0.0},
-      effort{0.0};  ///< valid only if LimitDescription::bounds_position() or bounds_effort()
+      effort{0.0};        ///< valid only if LimitDescription::bounds_position() or bounds_effort()
+  StopConstants<T> stop;  ///< valid if the study enforces the joint's limits
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
   Vector3<T> rotor_axis =
       Vector3<T>::Zero();           ///< unit vector in the axes of the body that carries the rotor

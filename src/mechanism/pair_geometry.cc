@@ -322,11 +322,13 @@ class PairBuilder {
     FrictionConstants<T> c;
     const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
       const bool missing = q.is_zero();
-      if (missing && rule.missing == FrictionNumberRule::Missing::kLengthOfOne)
+      using M = FrictionNumberRule::Missing;
+      // set_machine_numbers() replaces those of the machine.
+      if (missing && (rule.missing == M::kLengthOfOne || rule.missing == M::kOfMachine))
         number = T(1.0);
-      else if (missing && rule.missing == FrictionNumberRule::Missing::kPinRadius)
+      else if (missing && rule.missing == M::kPinRadius)
         number = c.pin_radius;
-      else if (missing && rule.missing == FrictionNumberRule::Missing::kTenTransitions)
+      else if (missing && rule.missing == M::kTenTransitions)
         number = T(10.0) * c.transition_velocity;
       else
         number = q.at(parameters_);

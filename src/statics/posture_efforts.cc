@@ -25,6 +25,7 @@ RobotDescription with_static_friction(RobotDescription robot) {
     friction->mu_dynamic = friction->mu_static;
     friction->mu_dynamic_backward = friction->mu_static_backward;
     friction->transition_velocity = Quantity(kTransition);
+    friction->transition_follows = false;
     // A power of the speed below one is of account even at kSlip.
     friction->viscous = friction->viscous_backward = Quantity(0.0);
   };

@@ -135,6 +135,11 @@ class System {
   /// Those that start stuck, in the order of MotionStudy::initial_state; of one joint the bearing
   /// before the gear.
   const std::vector<StuckContact>& stuck() const { return stuck_; }
+  /// Whether the k-th of bristles() starts in steady sliding, theory (13j): neither stuck nor with
+  /// states that the study gives.
+  bool begins_steadily(std::size_t k) const;
+  /// Whether one of them does.
+  bool begins_bristles() const;
   /// The states of the friction law of a joint coordinate, of its gear, or of a contact (element
   /// -1); null if the law has no states.
   const BristleContact* bristle(int pair, int element, bool gear = false) const;

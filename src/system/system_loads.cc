@@ -1,5 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // What acts on the coordinates and links of a system: loads, rotors, friction with states.
+#include <algorithm>
+
 #include "description/study.h"
 #include "math/arrays.h"
 #include "system/system.h"
@@ -210,6 +212,18 @@ void System::collect_stuck() {
         if (const InitialJointState& initial = study().initial_state[start];
             initial.stuck && bristles_[k].gear == gear && joint_of(bristles_[k]) == initial.joint)
           stuck_.push_back({k, start});
+}
+
+bool System::begins_steadily(std::size_t k) const {
+  const auto holds = [k](const StuckContact& stuck) { return stuck.bristle == k; };
+  return to_index(bristles_[k].first) >= study().initial_extra_states.size() &&
+         std::none_of(stuck_.begin(), stuck_.end(), holds);
+}
+
+bool System::begins_bristles() const {
+  for (std::size_t k = 0; k < bristles_.size(); ++k)
+    if (bristles_[k].model->steady && begins_steadily(k)) return true;
+  return false;
 }
 
 const BristleContact* System::bristle(int pair, int element, bool gear) const {

@@ -67,10 +67,15 @@ TEST(LimitWatch, WhatTheTolerancesExplainIsNotReported) {
 }
 
 TEST(LimitWatch, WhatIsEnforcedIsNotReported) {
-  const auto crossings =
-      watch("limits: {effort: true, position: true}", {at(0.0, -4.0, 3.2, 200.0)});
+  const double gives_way = 0.02 * 2.0 * 3.1416;
+  const auto crossings = watch("limits: {effort: true, position: true}",
+                               {at(0.0, -3.1416 - 0.99 * gives_way, 3.2, 200.0)});
   ASSERT_EQ(crossings.size(), 1U);
   EXPECT_EQ(crossings[0].limit, "velocity");
+  const auto beyond =
+      watch("limits: {position: true}", {at(0.0, -3.1416 - 1.01 * gives_way, 0.0, 0.0)});
+  ASSERT_EQ(beyond.size(), 1U) << "a stop that gives way by more than 2 % of its range";
+  EXPECT_EQ(beyond[0].limit, "lower");
   EXPECT_EQ(watch("limits: {}", {at(0.0, -4.0, 0.0, 0.0)}).at(0).limit, "lower");
 }
 

@@ -122,6 +122,57 @@ TEST(LuGre, DoesNotDependOnTheDirection) {
   EXPECT_NEAR((turned.rate - R * b.rate).norm(), 0.0, 1e-11);
 }
 
+/// The rates and the friction of a contact in the states that it starts with.
+Bristle<double> steady_at(const FrictionModel& model, const Eigen::Vector3d& u) {
+  const auto c = bristle_constants<double>();
+  return model->bristle.of<double>(u, model->steady.of<double>(u, c), c);
+}
+
+TEST(SteadyBristles, LuGreSlidesWithTheStribeckCurveAndNothingChanges) {
+  for (double speed : {1e-4, 0.003, 0.02, 1.0, 1e6}) {
+    const Eigen::Vector3d u(0.6 * speed, -0.8 * speed, 0.0);
+    const double g = 0.4 + 0.1 * std::exp(-speed * speed / 1e-4);
+    const Bristle<double> b = steady_at(FrictionModel::kLuGre, u);
+    EXPECT_NEAR((b.mu - g * u / speed).norm(), 0.0, 1e-13) << speed;
+    EXPECT_NEAR(b.rate.norm(), 0.0, 1e-9 * (1.0 + speed)) << speed;
+  }
+}
+
+TEST(SteadyBristles, GonthierSlidesAsItDoesAfterLong) {
+  for (double speed : {1e-4, 0.003, 0.008, 0.012, 0.03, 1.0, 1e6}) {
+    const Eigen::Vector3d u(0.6 * speed, -0.8 * speed, 0.0);
+    const double s = std::exp(-speed * speed / 1e-4);
+    const auto c = bristle_constants<double>();
+    const BristleState<double> state = steady_gonthier<double>(u, c);
+    const Bristle<double> b = gonthier<double>(u, state, c);
+    EXPECT_NEAR(b.dwell_rate, 0.0, 1e-12) << speed;
+    EXPECT_NEAR(b.mu.norm(), std::min(0.4 + 5.0 * s * speed / (1.0 - s), 0.4 + 0.1 * s), 1e-12)
+        << speed << ": the friction of zeta' = 0, cut off";
+    EXPECT_NEAR((b.mu.normalized() - u / speed).norm(), 0.0, 1e-12);
+    EXPECT_LE(state.zeta.norm(), 0.4 + 0.1 * s + 1e-12);
+    if (state.zeta.norm() < 0.4 + 0.1 * s - 1e-9) {
+      EXPECT_NEAR(b.rate.norm(), 0.0, 1e-9) << speed;
+    }
+  }
+}
+
+TEST(SteadyBristles, AtRestTheyAreLooseAndRoundingDeflectsNothing) {
+  for (const FrictionModel& model : {FrictionModel::kLuGre, FrictionModel::kGonthier}) {
+    const auto c = bristle_constants<double>();
+    const auto at = [&](double u) { return model->steady.of<double>(Eigen::Vector3d(u, 0.0, 0.0), c); };
+    EXPECT_EQ(at(0.0).zeta.norm(), 0.0) << model->name;
+    EXPECT_EQ(at(0.0).dwell, 0.0);
+    EXPECT_LT(at(1e-17).zeta.norm(), 1e-11);
+    EXPECT_LT(at(1e-17).dwell, 1e-20);
+    const double edge = kSteadyVelocity * 0.01;
+    for (const double u : {edge, 0.01}) {
+      EXPECT_NEAR(at(u * (1.0 - 1e-12)).zeta[0], at(u * (1.0 + 1e-12)).zeta[0], 1e-9) << u;
+      EXPECT_NEAR(at(u * (1.0 - 1e-12)).dwell, at(u * (1.0 + 1e-12)).dwell, 1e-9) << u;
+    }
+    EXPECT_EQ(at(-0.02).zeta[0], -at(0.02).zeta[0]);
+  }
+}
+
 TEST(LuGre, ParametersEnterTheLanes) {
   expect_parameter_derivatives(lugre<Lanes<8>>, lugre<std::complex<double>>);
 }

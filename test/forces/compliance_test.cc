@@ -16,7 +16,7 @@ double stop(double excess, double rate) {
 /// dF/dg at rest, by the complex step.
 double slope(double excess) {
   using C = std::complex<double>;
-  return joint_stop(C(excess, 1e-30), C(0.0), kStiffness, kDissipation, kWidth).imag() / 1e-30;
+  return joint_stop<C>(C(excess, 1e-30), C(0.0), kStiffness, kDissipation, kWidth).imag() / 1e-30;
 }
 
 TEST(JointStop, ByHand) {

@@ -88,6 +88,58 @@ TEST(TransitionWatch, NamesATransitionThatTheMotionNeverReaches) {
       << "bristles stick";
 }
 
+bool is_told(const Warnings& warnings, const std::string& code) {
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [&](const Warning& warning) { return warning.code == code; });
+}
+
+TEST(SmoothingWatch, NamesASmoothingAboveAHundredthOfTheLoad) {
+  // The pin carries about 10 N, the gear moves a rotor with up to 0.3 N m.
+  const std::string pin =
+      "<codesign:friction mu_static='0.1' mu_dynamic='0.1' joint_length='0.1' pin_radius='0.01'";
+  for (const auto& [smoothing, told] :
+       std::vector<std::pair<std::string, bool>>{{"", false},
+                                                 {" smoothing='0.001'", false},
+                                                 {" smoothing='1'", true},
+                                                 {" smoothing='100'", true}}) {
+    EXPECT_EQ(is_told(warnings_of_swing(pin + smoothing + "/>"), "large_smoothing"), told)
+        << smoothing;
+    EXPECT_EQ(is_told(warnings_of_swing("<codesign:actuator rotor_inertia='0.1' efficiency='0.9'" +
+                                        smoothing + "/>"),
+                      "large_smoothing"),
+              told)
+        << smoothing;
+  }
+}
+
+/// A block that falls 0.5 m onto a stop of a range of 1 m.
+RunSummary dropped_onto_stop(const std::string& mass, const std::string& limits) {
+  const Problem problem = load_problem(
+      {"p.urdf",
+       "<robot name='p'><link name='ground'/><link name='block'><inertial><mass value='" + mass +
+           "'/><inertia ixx='0.01' ixy='0' ixz='0' iyy='0.01' iyz='0' izz='0.01'/></inertial>"
+           "</link><joint name='lift' type='prismatic'><parent link='ground'/><child "
+           "link='block'/><axis xyz='0 0 1'/><limit lower='0' upper='1' effort='0' velocity='0'/>"
+           "</joint></robot>"},
+      {},
+      {"p.yaml", "duration: 1.0\ninitial_state: {lift: {position: 0.5}}\nlimits: {position: true" +
+                     limits + "}\n"});
+  return record_run(problem, problem.parameters(), {}, 3, [](const std::vector<double>&) {});
+}
+
+TEST(StopWatch, NamesStopsThatGiveWayBetweenTheSamples) {
+  for (const char* mass : {"0.001", "1", "2000"})
+    EXPECT_TRUE(dropped_onto_stop(mass, "").crossings.empty()) << mass;
+  const RunSummary soft = dropped_onto_stop("2000", ", stiffness: 1e4");
+  ASSERT_EQ(soft.crossings.size(), 1U);
+  EXPECT_EQ(soft.crossings[0].limit, "lower");
+  EXPECT_LT(soft.crossings[0].worst, -0.1);
+  EXPECT_GT(soft.crossings[0].time, std::sqrt(2.0 * 0.5 / 9.81)) << "when it arrives";
+  const RunSummary brief = dropped_onto_stop("2", ", stiffness: 2e4, dissipation: 0");
+  ASSERT_EQ(brief.crossings.size(), 1U) << "an impact of 30 ms, none of three samples";
+  EXPECT_LT(brief.crossings[0].worst, -0.02);
+}
+
 TEST(DesignRecord, ACancelledRunSaysSo) {
   const std::atomic<bool> cancel{true};
   const DesignRecord record = record_design(pendulum(), pendulum().parameters(), &cancel);

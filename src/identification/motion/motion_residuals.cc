@@ -54,7 +54,8 @@ void warn_of_friction_states(const CompiledSystem& system, const IdentificationD
   if (system.bristles().empty()) return;
   append({warn("segment_friction_states",
                {options.where, "identify.segment",
-                "friction with states begins each segment unloaded: a joint that sticks there "
+                "friction with states begins each segment as it slides, at rest unloaded: a joint "
+                "that sticks there "
                 "gives way by the deflection of its bristles, "
                 "and its first slip counts as a change of the start",
                 readable(options.segment),

@@ -48,6 +48,14 @@ void OptionReader::operator()(const std::string& key, const OptionRange& range,
   if (!range.holds(option)) refuse(*value, key, range);
 }
 
+void OptionReader::operator()(const std::string& key, const OptionRange& range,
+                              std::optional<double>& option) const {
+  double number = 0.0;
+  if (!block.find(key)) return;
+  (*this)(key, range, number);
+  option = number;
+}
+
 void OptionReader::operator()(const std::string& key, const OptionRange& range, int& option) const {
   const auto value = block.find(key);
   if (!value) return;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,8 @@ struct OptionReader {
 
   void operator()(const std::string& key, bool& option) const;
   void operator()(const std::string& key, const OptionRange& range, double& option) const;
+  void operator()(const std::string& key, const OptionRange& range,
+                  std::optional<double>& option) const;
   void operator()(const std::string& key, const OptionRange& range, int& option) const;
   void operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const;
   /// @param names of the choices: the option itself, or an enumeration in this order.

@@ -38,6 +38,7 @@ const Quantity& value_if_missing(const XmlElement& element, const FrictionNumber
     case FrictionNumberRule::Missing::kRefused:
     case FrictionNumberRule::Missing::kStandard:
     case FrictionNumberRule::Missing::kLengthOfOne:
+    case FrictionNumberRule::Missing::kOfMachine:
     case FrictionNumberRule::Missing::kTenTransitions:
       break;
   }

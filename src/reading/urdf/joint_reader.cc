@@ -95,20 +95,23 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
 }
 
 /// Sets the transition velocities that are not given, of friction in N m or N and of gears: a
-/// hundredth of the joint's largest speed if it has one, else 0.01 rad/s or 0.001 m/s.
+/// thousandth of the joint's largest speed if it has one, else they follow the machine. With
+/// bristles they are Stribeck velocities, which are ten times as large.
 void suit_transitions(const XmlElement& element, JointDescription* joint) {
   const bool bounded = joint->limit && joint->limit->bounds_velocity();
-  const Quantity usual = bounded                ? 0.01 * joint->limit->velocity.nominal()
-                         : is_turn(joint->type) ? 0.01
-                                                : 0.001;
-  const auto lacks = [&element](const char* tag) {
+  const double largest = bounded                ? joint->limit->velocity.nominal()
+                         : is_turn(joint->type) ? 1.0
+                                                : 0.1;  // [rad/s, m/s]
+  const auto suit = [&](const char* tag, FrictionDescription* friction) {
     const std::optional<XmlElement> child = element.child(tag);
-    return child && !child->has("transition_velocity");
+    if (!child || child->has("transition_velocity")) return;
+    const bool sticks = static_cast<bool>(friction->model->bristle);
+    friction->transition_velocity = (sticks ? 0.01 : 0.001) * largest;
+    friction->transition_follows = !bounded && !sticks;
   };
-  if (joint->friction && joint->friction->is_direct && lacks("codesign:friction"))
-    joint->friction->transition_velocity = usual;
-  if (joint->actuator && joint->actuator->gear && lacks("codesign:actuator"))
-    joint->actuator->gear->slip.transition_velocity = usual;
+  if (joint->friction && joint->friction->is_direct) suit("codesign:friction", &*joint->friction);
+  if (joint->actuator && joint->actuator->gear)
+    suit("codesign:actuator", &joint->actuator->gear->slip);
 }
 
 void read_limit_of_joint(const XmlElement& element, const ReadContext& context,

@@ -54,6 +54,11 @@ struct PageCheck {
           << block << "." << key << ": " << text;
     }
   }
+  /// A number that follows the machine where it is not given.
+  void operator()(const std::string& key, const OptionRange&, std::optional<double>& option) const {
+    EXPECT_NE(claim(key).standard.find("follows the machine"), std::string::npos) << key;
+    EXPECT_FALSE(option) << key;
+  }
   template <class Option, std::size_t N>
   void operator()(const std::string& key, const std::array<const char*, N>& names,
                   Option& option) const {

@@ -88,6 +88,7 @@ TEST(StudyOptions, ReadsTheOptimizer) {
 TEST(StudyOptions, ReadsTheLimits) {
   const LimitOptions none = read_text(kLeastStudy).limits;
   EXPECT_FALSE(none.effort || none.position);
+  EXPECT_FALSE(none.stiffness || none.dissipation || none.width) << "follow the machine";
   const LimitOptions limits = read_text(with_line("limits: {effort: true, position: true, "
                                                   "stiffness: 2e3, dissipation: 0, width: 1e-2}"))
                                   .limits;

@@ -25,7 +25,7 @@ TEST(FrictionReader, Defaults) {
   EXPECT_EQ(f.mu_static.nominal(), 0.4);
   EXPECT_EQ(f.mu_dynamic.nominal(), 0.3);
   EXPECT_EQ(f.transition_velocity.nominal(), FrictionDescription().transition_velocity.nominal());
-  EXPECT_EQ(f.smoothing.nominal(), FrictionDescription().smoothing.nominal());
+  EXPECT_TRUE(f.smoothing.is_zero()) << "follows the machine";
   EXPECT_EQ(f.friction_arm.nominal(), 0.02) << "the pin's radius";
   EXPECT_EQ(f.preload.nominal(), 0.0);
   EXPECT_EQ(f.viscous.nominal(), 0.0);
@@ -41,6 +41,7 @@ std::string shown_default(const FrictionNumberRule& rule) {
   using M = FrictionNumberRule::Missing;
   static const std::map<M, std::string> kWords = {{M::kRefused, "required"},
                                                   {M::kLengthOfOne, "none"},
+                                                  {M::kOfMachine, "1e-5 of the weight"},
                                                   {M::kPinRadius, "`pin_radius`"},
                                                   {M::kMuStatic, "`mu_static`"},
                                                   {M::kMuDynamic, "`mu_dynamic`"},
@@ -169,7 +170,7 @@ TEST(GearReader, EfficienciesAndFrictionOfTheMotor) {
   EXPECT_EQ(g.viscous.nominal(), 0.0);
   EXPECT_EQ(g.slip.model, FrictionModel::kBrownMcPhee);
   EXPECT_EQ(g.slip.transition_velocity.nominal(), 0.01);
-  EXPECT_EQ(g.slip.smoothing.nominal(), 1e-3);
+  EXPECT_TRUE(g.slip.smoothing.is_zero()) << "follows the machine";
   EXPECT_FALSE(gear("viscous=\"1e-5\"")->efficiency);
   const GearDescription worm = *gear(
       R"(efficiency="0.4" backdrive_efficiency="-0.6" model="lugre" bristle_stiffness="3e4")");
@@ -189,9 +190,27 @@ TEST(GearReader, TheTransitionSuitsTheSpeedOfTheJoint) {
               robot.joints[0].actuator->gear->slip.transition_velocity.nominal());
     return robot.joints[0].friction->transition_velocity.nominal();
   };
-  EXPECT_DOUBLE_EQ(transition("continuous", "<limit effort='0' velocity='3'/>"), 0.03);
-  EXPECT_EQ(transition("continuous", ""), 0.01);
-  EXPECT_EQ(transition("prismatic", "<limit effort='0' velocity='0'/>"), 0.001);
+  EXPECT_DOUBLE_EQ(transition("continuous", "<limit effort='0' velocity='3'/>"), 0.003);
+  EXPECT_EQ(transition("continuous", ""), 0.001);
+  EXPECT_EQ(transition("prismatic", "<limit effort='0' velocity='0'/>"), 0.0001);
+}
+
+TEST(GearReader, WithoutALimitTheTransitionFollowsTheMachineUnlessItSticks) {
+  const auto slip = [](const std::string& more, const std::string& limit) {
+    return read_urdf(
+               robot_text(kGround + link_with("arm") +
+                          joint_with("joint", "continuous", "ground", "arm",
+                                     "<codesign:actuator rotor_inertia='1' efficiency='0.9' " +
+                                         more + "/>" + limit)))
+        .joints[0]
+        .actuator->gear->slip;
+  };
+  const std::string limit = "<limit effort='0' velocity='3'/>";
+  EXPECT_TRUE(slip("", "").transition_follows);
+  EXPECT_FALSE(slip("", limit).transition_follows);
+  EXPECT_FALSE(slip("transition_velocity='0.02'", "").transition_follows);
+  EXPECT_FALSE(slip("model='gonthier'", "").transition_follows) << "a Stribeck velocity";
+  EXPECT_DOUBLE_EQ(slip("model='gonthier'", limit).transition_velocity.nominal(), 0.03);
 }
 
 TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
