@@ -130,19 +130,19 @@ class Walk {
 /// Whether a function of one number jumps between two places: where halving an interval leaves a
 /// difference.
 bool has_jump(const std::function<double(double)>& function, double from, double to) {
-  constexpr int kIntervals = 256, kHalvings = 45;
+  constexpr int kJumpIntervals = 256, kMostHalvings = 45;
   constexpr double kLeast = 1e-9;  // of the largest change over an interval
   std::vector<double> values;
   double largest = 0.0;
-  for (int k = 0; k <= kIntervals; ++k) {
-    values.push_back(function(from + (to - from) * k / kIntervals));
+  for (int k = 0; k <= kJumpIntervals; ++k) {
+    values.push_back(function(from + (to - from) * k / kJumpIntervals));
     if (k > 0 && std::isfinite(values[to_index(k)] - values[to_index(k - 1)]))
       largest = std::max(largest, std::abs(values[to_index(k)] - values[to_index(k - 1)]));
   }
-  for (int k = 0; k < kIntervals; ++k) {
-    double left = from + (to - from) * k / kIntervals, right = left + (to - from) / kIntervals,
+  for (int k = 0; k < kJumpIntervals; ++k) {
+    double left = from + (to - from) * k / kJumpIntervals, right = left + (to - from) / kJumpIntervals,
            at_left = values[to_index(k)], at_right = values[to_index(k + 1)];
-    for (int halving = 0; halving < kHalvings; ++halving) {
+    for (int halving = 0; halving < kMostHalvings; ++halving) {
       if (!(std::abs(at_right - at_left) > kLeast * largest)) break;
       const double middle = 0.5 * (left + right), at_middle = function(middle);
       if (!(left < middle && middle < right)) break;

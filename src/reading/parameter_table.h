@@ -49,17 +49,17 @@ struct ParameterTable {
                                            const std::vector<double>& times,
                                            bool at_instant = false) const {
     const auto variable = [&](int k) -> ExpressionVariable {
-      const int index = expression->dependencies()[to_index(k)];
-      if (index == time_index()) return {VariableKind::kTime, -1};
-      return {VariableKind::kParameter, index};
+      const int parameter = expression->dependencies()[to_index(k)];
+      if (parameter == time_index()) return {VariableKind::kTime, -1};
+      return {VariableKind::kParameter, parameter};
     };
     std::vector<ParameterSwitch> found =
         find_switches(expression->steps(), expression->text(), variable, at_instant);
     for (ParameterSwitch& one : found)
       for (const double time : times)
-        one.values.emplace_back([expression, time](std::vector<double> values) {
-          values.push_back(time);
-          return expression->value(values);
+        one.values.emplace_back([expression, time](std::vector<double> numbers) {
+          numbers.push_back(time);
+          return expression->value(numbers);
         });
     return found;
   }

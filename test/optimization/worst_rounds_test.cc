@@ -73,7 +73,9 @@ TEST(WorstRounds, ThePromiseHoldsBetweenTheSamples) {
     EXPECT_EQ(again.sample, last.sample);
     for (std::size_t k = 1; k < trials.size(); ++k)
       EXPECT_GT(trials[k].evaluation, trials[k - 1].evaluation) << "numbered on";
-    if (*starts == '\0') EXPECT_EQ(trials.back().evaluation, result.cost.evaluations);
+    if (*starts == '\0') {
+      EXPECT_EQ(trials.back().evaluation, result.cost.evaluations);
+    }
   }
 }
 

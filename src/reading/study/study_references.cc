@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "description/formula.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "recordings/number_table.h"
