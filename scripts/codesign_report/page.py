@@ -132,13 +132,18 @@ def find(path):
     return efforts.Efforts(path) if path.endswith(".json") and os.path.isfile(path) else find_job(path)
 
 
+def of_characters(text):
+    """Bytes in names of files that are no UTF-8 come as halves of characters, which no page can have."""
+    return text.encode("utf-8", "surrogateescape").decode("utf-8", "replace")
+
+
 def render(job):
     """The page as text. Curves get coarser until it is at most two megabytes."""
     if isinstance(job, efforts.Efforts):
-        return environment().get_template("efforts.html.j2").render(efforts.context(job))
+        return of_characters(environment().get_template("efforts.html.j2").render(efforts.context(job)))
     template = environment().get_template("page.html.j2")
     for scale in (1.0, 0.5, 0.2, 0.0):
-        text = template.render(context(job, scale))
+        text = of_characters(template.render(context(job, scale)))
         if len(text.encode()) <= MOST_BYTES:
             break
     return text
