@@ -12,7 +12,7 @@ from .requests import Refused
 
 PATIENCE = 3.0  # [s] until a service or a listener must be known to the master
 STANDS = "~step or ~resume"  # what a paused run waits for
-AFTER_PAUSE = 2.5  # [s] after which the real-time factor of a run that goes on, which is of half a second, has none of the pause
+AFTER_PAUSE = 2.5  # [s] after which diagnostics of a run that goes on are not from before the pause
 LATENESS = 30.0  # [s] until one that is known must answer: its machine may be busy
 
 
@@ -111,8 +111,8 @@ class Nodes:
         self._stands_at, self._stood, self._answered = None, -math.inf, -math.inf
 
     def correct(self, values):
-        """While the run is paused its node tells neither the time after a step nor a real-time factor without the pause; nor does it tell one until
-        the pause is a while ago."""
+        """Diagnostics come once a second. While the run stands they may be older than the answer to a step, whose time then counts; and the
+        real-time factor of a run that stands, or has just gone on, is an old one."""
         now = time.monotonic()
         if values.get("waits for") == STANDS:
             self._stood = now

@@ -32,7 +32,7 @@ class Notebook(unittest.TestCase):
         runs, uncertain = "runs: {near: {initial_state: {pivot: {position: 0.5}}}, far: {}}\n", "uncertain: {length: {normal: [0.5, 0.01]}}\nrobust: {samples: 8}\n"
         untuned = SWING.replace("parameters: {length: {}}\n", "")
         for study, words in ((SWING, "2 s"), (postures, "3 postures"), ("positions: {pivot: [0.5]}\n", "1 posture"), (SWING + runs, "2 runs of 2 s"),
-                             (SWING + 'until: "pivot/velocity > 0"\n', "at most 2 s"), (None, "no study"),
+                             (SWING + 'until: "${pivot/velocity > 0}"\n', "at most 2 s"), (None, "no study"),
                              (untuned + uncertain, "2 s, 8 samples"), (untuned + runs + uncertain, "2 runs of 2 s, 8 samples of each")):
             problem = codesign.Problem(PENDULUM) if study is None else codesign.Problem(PENDULUM, study)
             self.assertIn(f"</b>, {words}</p>", problem._repr_html_())

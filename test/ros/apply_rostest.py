@@ -252,7 +252,7 @@ class ApplyTest(NodesTestCase):
             returned, answer, _ = self.apply(*QUICK)
             self.assertEqual((returned, answer["error"]["code"]), (1, "busy"), answer)
             self.assertRegex(answer["error"]["message"], f"nothing was sent: {holder} changes the values of /arm_controller/gains/elbow, for [0-9.e+]+ s by now "
-                                                         rf"\(ramp {PATIENCE} s, hold 1 s\); wait for its end, or end it: rosnode kill {holder}")
+                                                         rf"\(ramp {PATIENCE:g} s, hold 1 s\); wait for its end, or end it: rosnode kill {holder}")
             self.assertEqual(answer["changes"], [])
             steps = [values["p"] for values in self.elbow.requests]
             self.assertEqual(steps, sorted(steps), "only the first has sent anything")

@@ -191,19 +191,18 @@ class Writer {
   /// mass.
   void write_masses() {
     const XmlElement robot(document_.robot(), &document_);
-    std::map<int, int> asked;  // from the group to its link
     const std::vector<XmlElement> links = robot.children("link");
     for (std::size_t k = 0; k < links.size(); ++k) {
       const int link = static_cast<int>(k);
       const bool has_shapes = links[k].child("visual") || links[k].child("collision");
       if (is_ground(link) || has_inertia(link) || !has_shapes) continue;
-      asked.emplace(group_of(link), link);
+      asked_.emplace(group_of(link), link);
     }
-    if (asked.empty() && !something_moves_ && !has_inertia(robot_.root))
+    if (asked_.empty() && !something_moves_ && !has_inertia(robot_.root))
       for (std::size_t k = 0; k < links.size(); ++k)
         if (!is_ground(static_cast<int>(k)))
-          asked.emplace(group_of(static_cast<int>(k)), static_cast<int>(k));
-    for (const auto& [group, link] : asked) write_mass(links[to_index(link)]);
+          asked_.emplace(group_of(static_cast<int>(k)), static_cast<int>(k));
+    for (const auto& [group, link] : asked_) write_mass(links[to_index(link)]);
   }
 
   void write_mass(const XmlElement& link) {
@@ -305,7 +304,13 @@ class Writer {
            readable(effort_of(joint), 4) + (is_turn(joint.type) ? " N m" : " N");
   }
 
+  /// Links between the joints of a compound joint, which have no mass and are not asked for one.
+  bool stays_massless(int link) const {
+    return !is_ground(link) && !has_inertia(link) && asked_.count(group_of(link)) == 0;
+  }
+
   void write_gear(const JointDescription& joint) {
+    if (stays_massless(joint.child) || stays_massless(joint.parent)) return;
     const bool turns = is_turn(joint.type);
     const double ratio = ratio_of(joint);
     const double inertia =
@@ -343,7 +348,8 @@ class Writer {
   const RobotDescription robot_;
   const ParameterTable table_;
   const RigidGroups groups_;
-  std::map<int, double> masses_;          ///< of bodies with inertia, by the base link of the group
+  std::map<int, double> masses_;  ///< of bodies with inertia, by the base link of the group
+  std::map<int, int> asked_;      ///< links whose mass is a line, by the base link of the group
   std::map<std::string, double> ratios_;  ///< of joints that could have an actuator, or have one
   bool something_moves_ = false;          ///< a body with inertia beside the ground
   Lines lines_;

@@ -125,6 +125,15 @@ TEST(StartingOverlay, MassesComeFromShapesOrAreToBeFilledIn) {
   EXPECT_TRUE(robot.joints[0].actuator.has_value()) << "j--1";
 }
 
+TEST(StartingOverlay, ACompoundJointHasNoDriveBetweenItsLinks) {
+  const std::string text = starting_overlay(
+      robot_of_vendor(kGround + link_with("cross", "") + link_with("arm") +
+                      joint_with("x", "continuous", "ground", "cross", "<axis xyz=\"1 0 0\"/>") +
+                      joint_with("y", "continuous", "cross", "arm", "<axis xyz=\"0 1 0\"/>")));
+  EXPECT_FALSE(has_text(text, "codesign:actuator")) << text;
+  EXPECT_TRUE(has_text(text, "Friction of y")) << text;
+}
+
 TEST(StartingOverlay, AFileThatCannotBeReadIsRefused) {
   EXPECT_THROW(starting_overlay(robot_of_vendor("<link/>")), InputError);
 }
