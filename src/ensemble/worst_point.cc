@@ -2,6 +2,8 @@
 #include "ensemble/worst_point.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,10 @@ namespace {
 
 constexpr double kFirstClimb = 0.25, kLastClimb = 1.0 / 128.0;
 constexpr std::size_t kMostClimbed = 2000;
+// At a minimum of the worst case several samples are the worst: climbs begin at all of them that
+// are less than this share better, at most so many.
+constexpr double kNearWorst = 0.1;
+constexpr std::size_t kMostStarts = 6;
 
 /// A parameter that lies anywhere between two values.
 struct Interval {
@@ -42,12 +48,11 @@ class Climb {
         const std::atomic<bool>* cancel)
       : intervals_(intervals_of(study)), ensemble_(ensemble), rho_(rho), cancel_(cancel) {}
 
-  WorstPoint run(const Eigen::VectorXd& values) {
-    Eigen::Index worst = 0;
-    result_.objective = values.maxCoeff(&worst);
-    result_.scenario = ensemble_.scenarios()[to_index(worst)];
+  WorstPoint run(const Scenario& from, double objective) {
+    result_.objective = objective;
+    result_.scenario = from;
     // The nominal values of a single sample are no values of the scenario.
-    result_.is_known = !intervals_.empty() && result_.scenario.sample >= 0;
+    result_.is_known = !intervals_.empty() && from.sample >= 0;
     for (double step = kFirstClimb; result_.is_known && step >= kLastClimb;)
       if (!take_step(step)) step *= 0.5;
     return std::move(result_);
@@ -116,7 +121,24 @@ class Climb {
 WorstPoint find_worst_point(const Problem& problem, const Ensemble& ensemble,
                             const Eigen::VectorXd& rho, const Eigen::VectorXd& values,
                             const std::atomic<bool>* cancel) {
-  return Climb(study_of(problem), ensemble, rho, cancel).run(values);
+  std::vector<Eigen::Index> order(to_index(values.size()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](Eigen::Index a, Eigen::Index b) { return values[a] > values[b]; });
+  const double worst = values[order.front()];
+  WorstPoint highest;
+  Statistics statistics;
+  for (std::size_t k = 0; k < order.size() && k < kMostStarts && highest.status.ok(); ++k) {
+    const double value = values[order[k]];
+    if (value < worst - kNearWorst * std::abs(worst)) break;
+    WorstPoint found = Climb(study_of(problem), ensemble, rho, cancel)
+                           .run(ensemble.scenarios()[to_index(order[k])], value);
+    statistics += found.statistics;
+    if (k == 0 || !found.status.ok() || found.objective > highest.objective)
+      highest = std::move(found);
+  }
+  highest.statistics = statistics;
+  return highest;
 }
 
 }  // namespace codesign

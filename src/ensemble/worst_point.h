@@ -16,7 +16,8 @@ struct WorstPoint {
   bool is_known = false;  ///< false: nothing has an interval
 };
 
-/// The worst point of a design, from the worst of its samples on: steps of a quarter of an interval
+/// The worst point of a design, from the worst of its samples on, and from those that are nearly as
+/// bad: steps of a quarter of an interval
 /// along each and along all that gain, halved where none gains; doc/theory.md (24b). A local
 /// maximum to 1/128 of the intervals. Points that cannot be integrated are left out.
 /// @param ensemble for kWorst. @param values psi of its scenarios at `rho`.

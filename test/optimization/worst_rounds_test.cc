@@ -90,7 +90,7 @@ TEST(WorstRounds, WhatIsLeftIsTold) {
   const OptimizationResult result = optimize(
       problem_of("16*(x - 0.37)^2 - 1", "x: {uniform: [0, 1]}",
                  "robust: {measure: worst, samples: 2}\noptimizer: {max_evaluations: 1}\n"));
-  EXPECT_LT(result.best.objective, 15.0) << "16 between the samples";
+  EXPECT_LT(result.best.objective, 15.9) << "16 between the samples";
   EXPECT_TRUE(has_code(result, "worst_between_samples"));
   EXPECT_EQ(result.cost.evaluations, 1);
 }
