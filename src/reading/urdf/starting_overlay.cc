@@ -8,7 +8,9 @@
 #include "math/arrays.h"
 #include "mechanism/mass_properties.h"
 #include "mechanism/rigid_groups.h"
+#include "reading/urdf/drive_lines.h"
 #include "reading/urdf/inertial_reader.h"
+#include "reading/urdf/overlay_lines.h"
 #include "reading/urdf/urdf_checks.h"
 #include "reading/urdf/urdf_reader.h"
 #include "reading/xml/xml_element.h"
@@ -17,57 +19,7 @@
 namespace codesign {
 namespace {
 
-// Numbers of a usual size; decision 131 says where they come from.
-constexpr double kUsualRatio = 100.0;       // of strain wave and planetary gears
-constexpr double kScrewRatio = 628.0;       // of a screw of 10 mm per turn [rad/m]
-constexpr double kReflectedInertia = 1e-3;  // [kg m^2] per N m of the largest effort
-constexpr double kScrewRotor = 1e-5;        // rotor of a small servo motor [kg m^2]
-constexpr double kFriction = 0.03;          // of the largest effort
-constexpr double kEffort = 10.0;            // of a joint without a limit [N m or N]
-constexpr double kDensity = 1000.0;         // of plastics [kg/m^3]
-
-/// Replaces each `from` by `to`, which may contain it.
-std::string with_all(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-/// The value of an attribute with its quotation marks. Two hyphens would end a comment, in which
-/// the element may stand.
-std::string attribute_text(std::string text) {
-  text = with_all(with_all(std::move(text), "&", "&amp;"), "<", "&lt;");
-  return '"' + with_all(with_all(std::move(text), "\"", "&quot;"), "--", "-&#45;") + '"';
-}
-
-std::string element_named(const char* tag, const std::string& name, const std::string& content) {
-  return std::string("<") + tag + " name=" + attribute_text(name) + ">" + content + "</" + tag +
-         ">";
-}
-
-/// The text of an overlay that is being written.
-class Lines {
- public:
-  void say(std::string sentence) {
-    // Two hyphens end a comment.
-    for (std::size_t at = sentence.find("--"); at != std::string::npos;
-         at = sentence.find("--", at))
-      sentence.insert(at + 1, " ");
-    text_ += "\n  <!-- " + sentence + " -->\n";
-  }
-  void add(const std::string& element) { text_ += "  " + element + '\n'; }
-  void to_fill_in(const std::string& element) { text_ += "  <!-- " + element + " -->\n"; }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
-
-SourceText as_overlay(const std::string& name, const std::string& body) {
-  return {name, "<robot name=" + attribute_text(name) +
-                    " xmlns:codesign=\"urn:mechanism_codesign\">\n" + body + "</robot>\n"};
-}
+constexpr double kDensity = 1000.0;  // of plastics [kg/m^3]
 
 /// A name that no element of the list has.
 std::string free_name(const std::string& wanted, const std::vector<std::string>& taken) {
@@ -106,7 +58,7 @@ class Writer {
 
  private:
   std::string heading() const {
-    Lines lines;
+    OverlayLines lines;
     lines.say(
         "What the file of " + robot_.name +
         " does not say, an overlay for it. A line in a comment needs numbers of yours: write "
@@ -150,14 +102,11 @@ class Writer {
       if (joint.actuator) ratios_[joint.name] = joint.actuator->gear_ratio.nominal();
   }
 
-  /// 1 is what files have that do not know better.
-  bool knows_ratio(const JointDescription& joint) const {
+  DriveFacts facts_of(const JointDescription& joint) const {
     const auto found = ratios_.find(joint.name);
-    return found != ratios_.end() && std::abs(found->second) != 1.0;
-  }
-  double ratio_of(const JointDescription& joint) const {
-    if (knows_ratio(joint)) return ratios_.at(joint.name);
-    return is_turn(joint.type) ? kUsualRatio : kScrewRatio;
+    // 1 is what files have that do not know better.
+    const bool is_known = found != ratios_.end() && std::abs(found->second) != 1.0;
+    return {joint, is_known ? found->second : 0.0, obstacle(joint)};
   }
 
   void write_base() {
@@ -257,17 +206,12 @@ class Writer {
     const double armature = plain_number_of(element.child("dynamics"), "armature");
     const bool has_friction =
         joint.friction || !joint.damping.is_zero() || !joint.dry_friction.is_zero();
+    const bool may_have_mass = !stays_massless(joint.child) && !stays_massless(joint.parent);
     if (takes_actuator(joint) && armature > 0.0)
-      write_armature(joint, armature);
-    else if (takes_actuator(joint))
-      write_gear(joint);
-    if (!has_friction) write_friction(joint);
-  }
-
-  /// @param inertia of the rotor [kg m^2]
-  std::string rotor(const JointDescription& joint, const std::string& inertia) const {
-    return "<codesign:actuator gear_ratio=" + attribute_text(to_decimal(ratio_of(joint))) +
-           " rotor_inertia=" + attribute_text(inertia);
+      write_armature(facts_of(joint), armature, &lines_);
+    else if (takes_actuator(joint) && may_have_mass)
+      write_gear(facts_of(joint), &lines_);
+    if (!has_friction) write_friction(joint, &lines_);
   }
 
   /// Why the joint cannot have a rotor as long as masses are missing; empty: it can.
@@ -278,68 +222,9 @@ class Writer {
                : "once the link above it, which carries the motor, has a mass";
   }
 
-  void write_armature(const JointDescription& joint, double armature) {
-    const std::string missing = obstacle(joint);
-    lines_.say("Rotor of " + joint.name + ": <dynamics armature=\"" + readable(armature) +
-               "\"> of other tools is what the joint feels of it, gear_ratio^2 rotor_inertia" +
-               (knows_ratio(joint) ? ""
-                                   : "; another gear_ratio, here the usual one, changes only what "
-                                     "the motor does to the link that carries it") +
-               (missing.empty() ? "." : "; " + missing + "."));
-    const double ratio = ratio_of(joint);
-    const std::string line = element_named(
-        "joint", joint.name, rotor(joint, to_decimal(armature / (ratio * ratio))) + "/>");
-    if (missing.empty())
-      lines_.add(line);
-    else
-      lines_.to_fill_in(line);
-  }
-
-  static double effort_of(const JointDescription& joint) {
-    return joint.limit && joint.limit->bounds_effort() ? joint.limit->effort.nominal() : kEffort;
-  }
-  static std::string of_effort(const JointDescription& joint) {
-    const bool bounded = joint.limit && joint.limit->bounds_effort();
-    return std::string(bounded ? "of its limit, " : "without a limit, for ") +
-           readable(effort_of(joint), 4) + (is_turn(joint.type) ? " N m" : " N");
-  }
-
   /// Links between the joints of a compound joint, which have no mass and are not asked for one.
   bool stays_massless(int link) const {
     return !is_ground(link) && !has_inertia(link) && asked_.count(group_of(link)) == 0;
-  }
-
-  void write_gear(const JointDescription& joint) {
-    if (stays_massless(joint.child) || stays_massless(joint.parent)) return;
-    const bool turns = is_turn(joint.type);
-    const double ratio = ratio_of(joint);
-    const double inertia =
-        turns ? kReflectedInertia * effort_of(joint) / (ratio * ratio) : kScrewRotor;
-    const std::string missing = obstacle(joint);
-    lines_.say("Drive of " + joint.name + ", from its data sheet" +
-               (missing.empty() ? "" : ", " + missing) + ". Usual: " +
-               (knows_ratio(joint) ? "the reduction of the file's transmission"
-                : turns            ? "100 : 1"
-                                   : "a screw of 10 mm per turn") +
-               (turns ? ", a rotor that is felt as 0.001 kg m^2 per N m " + of_effort(joint)
-                      : ", a rotor of 1e-5 kg m^2") +
-               ", 85 % efficiency. Without a gear: gear_ratio 1, no efficiency.");
-    lines_.to_fill_in(element_named("joint", joint.name,
-                                    rotor(joint, readable(inertia, 3)) + " efficiency=\"0.85\"/>"));
-  }
-
-  void write_friction(const JointDescription& joint) {
-    const bool bounded = joint.limit && joint.limit->bounds_velocity();
-    const double friction = kFriction * effort_of(joint);
-    const double damping = friction / (bounded ? joint.limit->velocity.nominal() : 1.0);
-    lines_.say("Friction of " + joint.name + ". Usual: 3 % " + of_effort(joint) +
-               ", dry, and as much viscous " +
-               (bounded ? "at its largest velocity" : "at a velocity of 1") +
-               "; codesign identify finds it from a recording.");
-    lines_.to_fill_in(element_named("joint", joint.name,
-                                    "<dynamics damping=" + attribute_text(readable(damping, 3)) +
-                                        " friction=" + attribute_text(readable(friction, 3)) +
-                                        "/>"));
   }
 
   const SourceText& urdf_;
@@ -352,7 +237,7 @@ class Writer {
   std::map<int, int> asked_;      ///< links whose mass is a line, by the base link of the group
   std::map<std::string, double> ratios_;  ///< of joints that could have an actuator, or have one
   bool something_moves_ = false;          ///< a body with inertia beside the ground
-  Lines lines_;
+  OverlayLines lines_;
 };
 
 }  // namespace
