@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "math/arrays.h"
+#include "mechanism/signal_axes.h"
 #include "mechanism/signal_catalog.h"
 #include "mechanism/topology.h"
 #include "text/nearest_name.h"
@@ -74,6 +75,22 @@ SignalReference resolve_joint(const SignalTerm& term, int joint, const SignalDes
   return reference;
 }
 
+/// The link in whose axes a vector is told, SignalReference::axes.
+int resolve_axes(const SignalTerm& term, const SignalReference& reference,
+                 const SignalDescription& signal, const RobotDescription& robot,
+                 const Topology& topology) {
+  if (term.axes.empty())
+    return facts_of(reference.kind).axes == SignalAxes::kOwnLink ? reference.link : -1;
+  const int link = link_of_axes(term, robot);
+  if (link == robot.root && facts_of(reference.kind).axes == SignalAxes::kRootLink) return -1;
+  if (topology.link_body[to_index(link)] == Topology::kMassless)
+    throw InputError({signal.where, "signal",
+                      "the link behind the @ has no <inertial>, so it is folded into a joint and "
+                      "its axes cannot be read",
+                      signal.text, "a link with an <inertial>, or @ground"});
+  return link;
+}
+
 SignalReference resolve_link(const SignalTerm& term, int link, const SignalDescription& signal,
                              const Topology& topology) {
   SignalReference reference;
@@ -129,6 +146,7 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
     SignalReference reference;
     if (is_of_mechanism(term)) {
       reference.kind = kind_of(SignalOwner::kMechanism, term);
+      reference.axis = axis_of(term.component);
     } else if (const auto spring = find_named(robot.spring_dampers, term.object);
                spring && is_of_spring(term)) {
       reference.kind = kind_of(SignalOwner::kSpring, term);
@@ -143,6 +161,7 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
       reference =
           resolve_link(term, find_named(robot.links, term.object).value(), signal, topology);
     }
+    reference.axes = resolve_axes(term, reference, signal, robot, topology);
     reference.factor = term.factor;
     resolved.push_back(reference);
   }
@@ -163,6 +182,12 @@ std::optional<Signal> differentiate(const Signal& resolved) {
   for (SignalReference& reference : derivative) {
     reference.kind = facts_of(reference.kind).rate;
     if (reference.kind == SignalKind::kNone) return std::nullopt;
+    // Axes that turn add to the rate of what is told in them, but to that of their own angular
+    // velocity.
+    const bool turns_itself = reference.axes == reference.link &&
+                              (reference.kind == SignalKind::kLinkAngularAcceleration ||
+                               reference.kind == SignalKind::kImuAngularAcceleration);
+    if (reference.axes >= 0 && !turns_itself) return std::nullopt;
   }
   if (!resolved.formula) return derivative;
   derivative.insert(derivative.begin(), resolved.begin(), resolved.end());

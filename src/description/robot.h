@@ -178,6 +178,9 @@ struct JointDescription {
   /// kFloating: the child's orientation at zero turning coordinates, as rpy in the joint frame
   /// [rad]; taken from the study's initial state.
   QuantityVector start_rotation;
+  /// Of a joint with one coordinate: where the study starts it, `position` or `guess` [rad or m];
+  /// it tells apart the two triples of Euler angles that are one orientation.
+  std::optional<Quantity> start_position;
   int motor = -1;         ///< the joint of the motor's side of an elastic gear, with_motor_sides();
                           ///< -1: motor and joint move together
   bool is_motor = false;  ///< it is such a joint

@@ -14,8 +14,9 @@ namespace codesign {
 namespace {
 
 constexpr const char* kFormOfSignal =
-    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, <controller>/<quantity>, sums and "
-    "differences of them, and expressions of them, ${...}";
+    "<joint>/<quantity>, <link>/<quantity>/{x,y,z}, the same in the axes of a link, "
+    "<link>/<quantity>/{x,y,z}@<link>, <controller>/<quantity>, sums and differences of them, and "
+    "expressions of them, ${...}";
 
 constexpr const char* kFormOfCondition =
     "a comparison of signals, parameters and the time t, ${axis/position > 0.3}, or several joined "
@@ -25,6 +26,44 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\n") - first + 1);
+}
+
+bool continues_name(char c) { return continues_identifier(c) || c == '-' || c == '.'; }
+
+std::size_t signal_end(const std::string& text, std::size_t at);
+
+/// The end of the name of a link behind an @: before a `-` that another signal follows, and with
+/// slashes that a letter follows.
+std::size_t axes_end(const std::string& text, std::size_t at) {
+  for (; at < text.size(); ++at) {
+    if (text[at] == '-' && signal_end(text, at + 1) != at + 1) break;
+    const bool is_path = text[at] == '/' && at + 1 < text.size() &&
+                         std::isalpha(static_cast<unsigned char>(text[at + 1])) != 0;
+    if (!continues_name(text[at]) && !is_path) break;
+  }
+  return at;
+}
+
+/// The end of the signal that begins at a byte of an expression, or that byte: a name, which may
+/// contain slashes, then a slash and a known quantity, a component of one letter, and @ with a
+/// link.
+std::size_t signal_end(const std::string& text, std::size_t at) {
+  const auto name_end = [&text](std::size_t k) {
+    while (k < text.size() && continues_name(text[k])) ++k;
+    return k;
+  };
+  for (std::size_t slash = name_end(at); slash < text.size() && text[slash] == '/';
+       slash = name_end(slash + 1)) {
+    std::size_t end = slash + 1;
+    while (end < text.size() && continues_identifier(text[end])) ++end;
+    if (!is_quantity(text.substr(slash + 1, end - slash - 1))) continue;
+    const bool has_component = end + 1 < text.size() && text[end] == '/' &&
+                               std::string("wxyz").find(text[end + 1]) != std::string::npos &&
+                               (end + 2 == text.size() || !continues_identifier(text[end + 2]));
+    if (!has_component) return end;
+    return end + 2 < text.size() && text[end + 2] == '@' ? axes_end(text, end + 3) : end + 2;
+  }
+  return at;
 }
 
 /// Parses from left to right. An operator can only follow a quantity or a component, which consist
@@ -107,7 +146,7 @@ class SignalParser {
       return false;
     if (end + 1 < text_.size() && text_[end] == '/' && word_end(end + 1) == end + 2) end += 2;
     end = std::min(text_.find_first_not_of(" \t\n", end), text_.size());
-    return end == text_.size() || text_[end] == '+' || text_[end] == '-';
+    return end == text_.size() || text_[end] == '+' || text_[end] == '-' || text_[end] == '@';
   }
 
   SignalTerm read_term(double factor) {
@@ -125,7 +164,16 @@ class SignalParser {
       ++position_;
       term.component = read_word("component");
     }
+    if (next_is('@')) term.axes = read_axes();
     return term;
+  }
+
+  std::string read_axes() {
+    const std::size_t first = ++position_;
+    position_ = axes_end(text_, first);
+    if (position_ == first)
+      fail("expected the name of a link at column " + std::to_string(first + 1) + " of the signal");
+    return text_.substr(first, position_ - first);
   }
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -138,34 +186,13 @@ class SignalParser {
   std::size_t position_ = 0;
 };
 
-bool continues_name(char c) { return continues_identifier(c) || c == '-' || c == '.'; }
-
-/// The end of the signal that begins at a byte of an expression, or that byte: a name, which may
-/// contain slashes, then a slash and a known quantity, and a component of one letter.
-std::size_t signal_end(const std::string& text, std::size_t at) {
-  const auto name_end = [&text](std::size_t k) {
-    while (k < text.size() && continues_name(text[k])) ++k;
-    return k;
-  };
-  for (std::size_t slash = name_end(at); slash < text.size() && text[slash] == '/';
-       slash = name_end(slash + 1)) {
-    std::size_t end = slash + 1;
-    while (end < text.size() && continues_identifier(text[end])) ++end;
-    if (!is_quantity(text.substr(slash + 1, end - slash - 1))) continue;
-    const bool has_component = end + 1 < text.size() && text[end] == '/' &&
-                               std::string("wxyz").find(text[end + 1]) != std::string::npos &&
-                               (end + 2 == text.size() || !continues_identifier(text[end + 2]));
-    return has_component ? end + 2 : end;
-  }
-  return at;
-}
-
 /// The term of a signal that signal_end() has found.
 SignalTerm term_of(const std::string& signal) {
   SignalTerm term;
-  std::size_t end = signal.size(), slash = signal.rfind('/');
+  std::size_t end = std::min(signal.find('@'), signal.size()), slash = signal.rfind('/', end - 1);
+  if (end < signal.size()) term.axes = signal.substr(end + 1);
   if (slash + 2 == end) {  // no quantity has one letter
-    term.component = signal.substr(slash + 1);
+    term.component = signal.substr(slash + 1, 1);
     end = slash;
     slash = signal.rfind('/', end - 1);
   }

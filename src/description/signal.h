@@ -19,8 +19,13 @@ struct SignalTerm {
   std::string object;    ///< name of a joint, loop, link or controller
   std::string quantity;  ///< position, velocity, effort, friction, ...; the list is in doc/study.md
   std::string
-      component;  ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
+      component;       ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
+  std::string axes{};  ///< of a vector: the link in whose axes it is told, or kGroundAxes; empty:
+                       ///< those of the quantity, SignalFacts::axes
 };
+
+/// The root link as the name of axes, unless a link has this name.
+inline constexpr const char* kGroundAxes = "ground";
 
 /// An expression of signals, parameters and the time t: `${crank/effort * crank/velocity}`.
 struct SignalFormula {

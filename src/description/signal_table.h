@@ -42,10 +42,14 @@ enum class SignalKind {
   kControllerOutput,
   kLinkPosition,
   kLinkVelocity,
+  kLinkAcceleration,
   kLinkAngularVelocity,
-  kLinkOrientation,  ///< component w, x, y or z of the quaternion in the root link's frame; axis 0
-                     ///< is w
-  kSpringForce,      ///< tension of a spring-damper; theory (13b)
+  kLinkAngularAcceleration,
+  kLinkOrientation,     ///< component w, x, y or z of the quaternion in the root link's frame; axis
+                        ///< 0 is w
+  kImuAcceleration,     ///< proper acceleration of a link's origin, in its own axes; theory (11c)
+  kImuAngularVelocity,  ///< of a link, in its own axes
+  kSpringForce,         ///< tension of a spring-damper; theory (13b)
   kSpringLength,
   kSpringSpeed,    ///< rate of its length
   kKineticEnergy,  ///< of the whole mechanism; theory (14b)
@@ -55,13 +59,15 @@ enum class SignalKind {
   kTotalDampingPower,
   kTotalActuatorPower,
   kTotalLoadPower,
+  kShakingForce,   ///< what the motion of all bodies exerts on the ground; theory (11b)
+  kShakingMoment,  ///< likewise, about the ground's origin or that of the link in whose axes it is
   // What no file names: derivatives, and what stands for a quantity of special joints.
   kMotorAcceleration,
   kGearDeflectionRate,
   kElasticTorque,    ///< torque of an elastic gear, which depends on the motion alone
   kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)
   kContactSpeed,     ///< speed of slip of such a pair
-  kLinkAcceleration,
+  kImuAngularAcceleration,
   kControllerErrorRate,
   kControllerSetpointRate,
   kNone  ///< no quantity
@@ -93,6 +99,14 @@ enum class SignalNeeds {
 /// The components of a quantity: none, x y z, or w x y z.
 enum class SignalShape { kScalar, kVector, kQuaternion };
 
+/// The axes of a vector unless a term names a link, `NAME/QUANTITY/x@LINK`.
+enum class SignalAxes {
+  kNone,        ///< no vector, or one that is told in the root's axes only
+  kRootLink,    ///< of the root link
+  kChildFrame,  ///< of the joint frame that the child of a joint carries
+  kOwnLink      ///< of the link that has the quantity
+};
+
 /// What there is to know of a quantity besides its value.
 struct SignalFacts {
   SignalKind kind;
@@ -104,6 +118,7 @@ struct SignalFacts {
   SignalNeeds needs;
   SignalKind rate = SignalKind::kNone;  ///< its time derivative
   SignalShape shape = SignalShape::kScalar;
+  SignalAxes axes = SignalAxes::kNone;
 };
 
 /// A quantity with its value, a function of a StateView and a SignalReference, in SI units. The
@@ -137,6 +152,7 @@ using K = SignalKind;
 using Of = SignalOwner;
 using Needs = SignalNeeds;
 using Shape = SignalShape;
+using Axes = SignalAxes;
 
 /// All quantities, in the order of SignalKind. A new one is an enumerator and a row here, and a
 /// line of doc/study/signals.md.
@@ -207,10 +223,10 @@ inline constexpr auto kRows = std::make_tuple(
         {K::kGearTorque, Of::kJoint, "gear_torque", "Q", has_gear_torque, Needs::kReactions},
         [](const auto& view, const auto& of) { return joint_gear_torque(view, of); }),
     signal_entry({K::kReactionForce, Of::kJoint, "reaction_force", "N", is_movable,
-                  Needs::kReactions, K::kNone, Shape::kVector},
+                  Needs::kReactions, K::kNone, Shape::kVector, Axes::kChildFrame},
                  [](const auto& view, const auto& of) { return reaction_term(view, of); }),
     signal_entry({K::kReactionTorque, Of::kJoint, "reaction_torque", "N m", is_movable,
-                  Needs::kReactions, K::kNone, Shape::kVector},
+                  Needs::kReactions, K::kNone, Shape::kVector, Axes::kChildFrame},
                  [](const auto& view, const auto& of) { return reaction_term(view, of); }),
     signal_entry(
         {K::kControllerError, Of::kController, "error", "e", nullptr, Needs::kControl,
@@ -230,14 +246,27 @@ inline constexpr auto kRows = std::make_tuple(
                   K::kLinkVelocity, Shape::kVector},
                  [](const auto& view, const auto& of) { return link_position(view, of); }),
     signal_entry({K::kLinkVelocity, Of::kLink, "velocity", "m/s", nullptr, Needs::kMotion,
-                  K::kLinkAcceleration, Shape::kVector},
+                  K::kLinkAcceleration, Shape::kVector, Axes::kRootLink},
                  [](const auto& view, const auto& of) { return link_velocity(view, of); }),
+    signal_entry({K::kLinkAcceleration, Of::kLink, "acceleration", "m/s²", nullptr, Needs::kForces,
+                  K::kNone, Shape::kVector, Axes::kRootLink},
+                 [](const auto& view, const auto& of) { return link_acceleration(view, of); }),
     signal_entry({K::kLinkAngularVelocity, Of::kLink, "angular_velocity", "rad/s", nullptr,
-                  Needs::kMotion, K::kNone, Shape::kVector},
+                  Needs::kMotion, K::kLinkAngularAcceleration, Shape::kVector, Axes::kRootLink},
                  [](const auto& view, const auto& of) { return link_angular_velocity(view, of); }),
+    signal_entry(
+        {K::kLinkAngularAcceleration, Of::kLink, "angular_acceleration", "rad/s²", nullptr,
+         Needs::kForces, K::kNone, Shape::kVector, Axes::kRootLink},
+        [](const auto& view, const auto& of) { return link_angular_acceleration(view, of); }),
     signal_entry({K::kLinkOrientation, Of::kLink, "orientation", "", nullptr, Needs::kMotion,
                   K::kNone, Shape::kQuaternion},
                  [](const auto& view, const auto& of) { return link_orientation(view, of); }),
+    signal_entry({K::kImuAcceleration, Of::kLink, "imu_acceleration", "m/s²", nullptr,
+                  Needs::kForces, K::kNone, Shape::kVector, Axes::kOwnLink},
+                 [](const auto& view, const auto& of) { return imu_acceleration(view, of); }),
+    signal_entry({K::kImuAngularVelocity, Of::kLink, "imu_angular_velocity", "rad/s", nullptr,
+                  Needs::kMotion, K::kImuAngularAcceleration, Shape::kVector, Axes::kOwnLink},
+                 [](const auto& view, const auto& of) { return link_angular_velocity(view, of); }),
     signal_entry({K::kSpringForce, Of::kSpring, "force", "N", nullptr, Needs::kMotion},
                  [](const auto& view, const auto& of) {
                    return spring_at(view, to_index(of.spring)).tension;
@@ -271,6 +300,12 @@ inline constexpr auto kRows = std::make_tuple(
         [](const auto& view, const auto&) { return total_power(view, PowerKind::kActuator); }),
     signal_entry({K::kTotalLoadPower, Of::kMechanism, "load_power", "W", nullptr, Needs::kForces},
                  [](const auto& view, const auto&) { return total_power(view, PowerKind::kLoad); }),
+    signal_entry({K::kShakingForce, Of::kMechanism, "shaking_force", "N", nullptr, Needs::kForces,
+                  K::kNone, Shape::kVector, Axes::kRootLink},
+                 [](const auto& view, const auto& of) { return shaking_force(view, of); }),
+    signal_entry({K::kShakingMoment, Of::kMechanism, "shaking_moment", "N m", nullptr,
+                  Needs::kForces, K::kNone, Shape::kVector, Axes::kRootLink},
+                 [](const auto& view, const auto& of) { return shaking_moment(view, of); }),
     signal_entry({K::kMotorAcceleration, Of::kJoint, "", "", nullptr, Needs::kForces},
                  [](const auto& view, const auto& of) {
                    return gear_ratio(view, of) * joint_acceleration(view, motor_side(view, of));
@@ -286,9 +321,10 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry(
         {K::kContactSpeed, Of::kJoint, "", "", nullptr, Needs::kForces},
         [](const auto& view, const auto& of) { return contact_at(view, of.pair).speed(); }),
-    signal_entry({K::kLinkAcceleration, Of::kLink, "", "", nullptr, Needs::kForces, K::kNone,
-                  Shape::kVector},
-                 [](const auto& view, const auto& of) { return link_acceleration(view, of); }),
+    signal_entry(
+        {K::kImuAngularAcceleration, Of::kLink, "", "", nullptr, Needs::kForces, K::kNone,
+         Shape::kVector, Axes::kOwnLink},
+        [](const auto& view, const auto& of) { return link_angular_acceleration(view, of); }),
     signal_entry({K::kControllerErrorRate, Of::kController, "", "", nullptr, Needs::kForces},
                  [](const auto& view, const auto& of) {
                    return controller_error_rate(view, of.controller);

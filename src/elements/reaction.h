@@ -4,6 +4,7 @@
 #include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/joint_load.h"
+#include "elements/link_axes.h"
 #include "elements/state_view.h"
 #include "joints/pair_rows.h"
 #include "math/arrays.h"
@@ -11,17 +12,17 @@
 namespace codesign {
 
 // The wrench of a joint on its child, theory (11a): one component of the force [N] or of the torque
-// [N m], in the axes of the joint frame that the child carries.
+// [N m], in the axes of the joint frame that the child carries, or of a link that the term names.
 
 /// One component of the wrench of a joint on its child: the force along, or the torque about, an
-/// axis of the joint frame that the child carries; theory (11a).
+/// axis of the joint frame that the child carries, or an axis of another link; theory (11a).
 template <class T>
 struct ReactionAxis {
   int pair = -1;
   Side side = Side::kJ;  ///< side of the pair that the child is on
   int body = -1;         ///< the child; -1 if it is the ground
   bool torque = false;   ///< torque about the axis through s, else force along the axis
-  Vector3<T> e, s;       ///< axis and origin of the joint frame, in body coordinates
+  Vector3<T> e, s;       ///< the axis, and the origin of the joint frame, in body coordinates
 
   /// The vector d of (11a) in body axes: a load b on the child's vector A s_t contributes (A d) . b
   /// to the component. d is e for a force, e x (s_t - s) for a torque and a point, e x s_t for a
@@ -43,7 +44,9 @@ ReactionAxis<T> reaction_axis(const StateView<T>& view, const SignalReference& t
   axis.side = element.reversed ? Side::kI : Side::kJ;
   axis.body = element.reversed ? pair.body_i : pair.body_j;
   axis.torque = term.kind == SignalKind::kReactionTorque;
-  axis.e = frame.R.col(term.axis);
+  axis.e = term.axes < 0 ? Vector3<T>(frame.R.col(term.axis))
+                         : Vector3<T>(view.body(axis.body).A.transpose() *
+                                      axis_of_link(view, term.axes, term.axis));
   axis.s = frame.s;
   return axis;
 }

@@ -8,6 +8,7 @@
 #include "elements/energy.h"
 #include "elements/forest.h"
 #include "elements/reaction.h"
+#include "elements/shaking.h"
 #include "elements/state_view.h"
 #include "math/arrays.h"
 #include "math/euler_parameters.h"
@@ -44,7 +45,7 @@ T motor_position(const StateView<T>& view, const CoordinateIndex& of) {
 }
 
 // One component of the position, velocity or acceleration of a link's origin, or of its angular
-// velocity, in ground axes.
+// velocity or acceleration, in the term's axes.
 
 template <class T>
 const BodyKinematics<T>& body_of_link(const StateView<T>& view, const SignalReference& of) {
@@ -62,18 +63,28 @@ T link_position(const StateView<T>& view, const SignalReference& of) {
 template <class T>
 T link_velocity(const StateView<T>& view, const SignalReference& of) {
   const BodyKinematics<T>& k = body_of_link(view, of);
-  return (k.rd + k.Ad * origin_of_link(view, of))[of.axis];
+  return component_of(view, of, Vector3<T>(k.rd + k.Ad * origin_of_link(view, of)));
 }
 template <class T>
 T link_acceleration(const StateView<T>& view, const SignalReference& of) {
   const BodyKinematics<T>& k = body_of_link(view, of);
-  return (k.rdd + k.Add * origin_of_link(view, of))[of.axis];
+  return component_of(view, of, Vector3<T>(k.rdd + k.Add * origin_of_link(view, of)));
 }
 template <class T>
 T link_angular_velocity(const StateView<T>& view, const SignalReference& of) {
+  return component_of(view, of, ground_omega(body_of_link(view, of)));
+}
+template <class T>
+T link_angular_acceleration(const StateView<T>& view, const SignalReference& of) {
   const BodyKinematics<T>& k = body_of_link(view, of);
-  return k.in_forest ? T(ground_omega(k)[of.axis])
-                     : T(T(2.0) * (ground_rate_matrix(k.p) * k.pd)[of.axis]);
+  return component_of(view, of, Vector3<T>(k.A * body_alpha(k)));
+}
+/// r'' - g of the link's origin, which an accelerometer there shows; theory (11c).
+template <class T>
+T imu_acceleration(const StateView<T>& view, const SignalReference& of) {
+  const BodyKinematics<T>& k = body_of_link(view, of);
+  return component_of(view, of,
+                      Vector3<T>(k.rdd + k.Add * origin_of_link(view, of) - view.design.gravity));
 }
 /// One component of a link's quaternion in the root's axes: the body's p times a constant
 /// quaternion.

@@ -162,7 +162,7 @@ T coordinate_position(const PairConstants<T>& pair, const CoordinateConstants<T>
     case Kind::kAngle:
       return sign * arc_tangent(cosine(c.a, c.b), cosine(c.c, c.d));
     case Kind::kSine:
-      return sign * asin(cosine(c.a, c.b));
+      return c.offset + sign * asin(cosine(c.a, c.b));
     case Kind::kSlide:
       return sign *
              dot<T>((c.fixed_in_j ? j : i).A * c.a, j.r + j.A * pair.s_j - i.r - i.A * pair.s_i);

@@ -22,12 +22,13 @@ struct CoordinateConstants {
     kSlide,  ///< sign * a . d, with a fixed in body i or j and d from the joint point of i to the
              ///< joint point of j
     kAngle,  ///< sign * atan2(a_i . b_j, c_i . d_j)
-    kSine,   ///< sign * asin(a_i . b_j)
+    kSine,   ///< offset + sign * asin(a_i . b_j)
     kSpin    ///< only a rate: a . (omega_j - omega_i), with a fixed in the ground
   };
   Kind kind = Kind::kNone;
   double sign = 1.0;        ///< -1 where URDF's coordinate has the opposite direction
   bool fixed_in_j = false;  ///< kSlide: a is fixed in body j, else in body i
+  T offset{0.0};            ///< kSine [rad]
   Vector3<T> a = Vector3<T>::Zero(), b = Vector3<T>::Zero(), c = Vector3<T>::Zero(),
              d = Vector3<T>::Zero();
 };

@@ -5,6 +5,7 @@
 
 #include "codegen/number_types.h"
 #include "math/arrays.h"
+#include "mechanism/hinge_angles.h"
 #include "mechanism/loop_plane.h"
 #include "mechanism/pose.h"
 
@@ -149,7 +150,10 @@ class PairBuilder {
     const JointType type = joint(k).type;
     if (type == JointType::kPrismatic) c = slide(k, R_ji);
     if (is_turn(type)) c = turn(k, R_ji);
-    if (pair_.chain[k].reversed) c.sign = -c.sign;
+    if (pair_.chain[k].reversed) {
+      c.sign = -c.sign;
+      c.offset = -c.offset;
+    }
     return c;
   }
 
@@ -205,10 +209,18 @@ class PairBuilder {
       c.kind = Coordinate::Kind::kTurn;
     } else if (turns_.size() == 2) {
       universal_angle(k == turns_[0], &c);
-    } else if (right_angled()) {
-      tait_bryan_angle(k, R_ji, &c);
+    } else {
+      c = three_hinges(R_ji).angle(k == turns_[0] ? 0 : k == turns_[1] ? 1 : 2);
     }
     return c;
+  }
+
+  ThreeHinges<T> three_hinges(const Matrix3<T>& R_ji) const {
+    ThreeHinges<T> hinges{axis(turns_[0]), axis(turns_[1]), axis(turns_[2]), std::nullopt, R_ji};
+    const std::optional<Quantity>& start = joint(turns_[1]).start_position;
+    if (start) hinges.start = start->at(parameters_);
+    if (start && pair_.chain[turns_[1]].reversed) hinges.start = -*hinges.start;
+    return hinges;
   }
 
   void universal_angle(bool first, Coordinate* c) const {
@@ -219,34 +231,6 @@ class PairBuilder {
     c->b = first ? C_j.col(2) : C_j.col(1);
     c->c = first ? C_i.col(0) : C_i.col(2);
     c->d = first ? C_j.col(2) : C_j.col(0);
-  }
-
-  bool right_angled() const {
-    const auto normal = [this](std::size_t a, std::size_t b) {
-      const T cosine = dot(axis(turns_[a]), axis(turns_[b]));
-      return is_less(T(cosine * cosine), T(1e-18), true);
-    };
-    return normal(0, 1) && normal(1, 2) && normal(0, 2);
-  }
-
-  // R_ij = R(z1) R(z2) R(z3) about axes normal to each other: the angles about z1 and z3 are arc
-  // tangents, the one about z2 an arc sine.
-  void tait_bryan_angle(std::size_t k, const Matrix3<T>& R_ji, Coordinate* c) const {
-    const Vector3<T>&z1 = axis(turns_[0]), &z2 = axis(turns_[1]), &z3 = axis(turns_[2]);
-    if (k == turns_[1]) {
-      c->kind = Coordinate::Kind::kSine;
-      c->sign = is_less(T(0.0), dot(z1, cross(z2, z3)), true) ? 1.0 : -1.0;
-      c->a = z1;
-      c->b = R_ji * z3;
-      return;
-    }
-    const bool first = k == turns_[0];
-    c->kind = Coordinate::Kind::kAngle;
-    c->sign = first ? 1.0 : -1.0;
-    c->a = first ? cross(z1, z3) : z1;
-    c->b = R_ji * (first ? z3 : cross(z3, z1));
-    c->c = first ? z3 : z1;
-    c->d = R_ji * (first ? z3 : z1);
   }
 
   // A plane slips along x'' and y'' of body i and turns about z''; a ball turns about the three

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mechanism/signal_axes.h"
 #include "mechanism/topology.h"
 #include "text/nearest_name.h"
 
@@ -137,8 +138,9 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
 }  // namespace
 
 bool is_of_mechanism(const SignalTerm& term) {
-  return term.object == kMechanism && term.component.empty() &&
-         find_quantity(SignalOwner::kMechanism, term.quantity) != nullptr;
+  if (term.object != kMechanism) return false;
+  const SignalFacts* facts = find_quantity(SignalOwner::kMechanism, term.quantity);
+  return facts != nullptr && (facts->shape == SignalShape::kScalar) == term.component.empty();
 }
 
 bool is_of_spring(const SignalTerm& term) {
@@ -160,6 +162,7 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
                          all_names(robot, controllers));
     check_term(term, offer, signal.where, element);
   }
+  check_axes(signal, robot, element);
 }
 
 std::vector<std::string> default_signals(const RobotDescription& robot,

@@ -15,6 +15,11 @@
 namespace codesign {
 namespace {
 
+constexpr const char* kOfBalls =
+    "in a ball joint of three hinges, each at right angles to the next, and where the first and "
+    "the third are parallel (proper Euler angles) an initial_state of the second whose position or "
+    "guess is no multiple of pi";
+
 /// Whether a signal needs the wrenches that joints transmit. Where a spring gives the torque of a
 /// gear, this torque does not.
 bool depends_on_reactions(const SignalTerm& term, const RobotDescription& robot) {
@@ -31,7 +36,7 @@ bool depends_on_reactions(const SignalTerm& term, const RobotDescription& robot)
 
 System::System(const RobotDescription& robot, const Study& study, ReactionSharing sharing,
                const std::vector<int>& drives)
-    : robot_(with_motor_sides(with_start_rotations(robot, study), study)),
+    : robot_(with_motor_sides(with_start(robot, study), study)),
       study_(std::make_shared<const Study>(study)),
       motion_(study_.get()),
       topology_(derive_topology(robot_)),
@@ -258,8 +263,7 @@ void System::check_couplings() const {
         throw InputError(
             {coupling.where, coupling.element(),
              "a joint of a chain of links without <inertial> has no coordinate in closed form",
-             robot_.joints[to_index(term.joint)].name,
-             "in a ball joint of three hinges, hinges at right angles to each other"});
+             robot_.joints[to_index(term.joint)].name, kOfBalls});
 }
 
 void System::check_effort_rate(const SignalReference& term,
@@ -306,8 +310,7 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
     throw InputError(
         {description.where, "signal",
          "a joint of this chain of links without <inertial> has no coordinate in closed form",
-         description.text,
-         "in a ball joint of three hinges, hinges at right angles to each other"});
+         description.text, kOfBalls});
   }
 }
 
@@ -317,7 +320,9 @@ void System::refuse_unsupported() const {
                       "<robot name=\"" + robot_.name + "\">",
                       "nothing moves: no link with an <inertial> hangs on a movable joint", "",
                       "at least one link with <inertial> below a joint that is not fixed; <inertial "
-                      "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes"});
+                      "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes; "
+                      "or, if the whole model moves freely, base: floating in the study, or --base "
+                      "floating on the command line"});
 }
 
 }  // namespace codesign

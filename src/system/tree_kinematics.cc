@@ -224,11 +224,15 @@ int tree_joint(const RobotDescription& robot, const InitialJointState& initial) 
   return -1;
 }
 
-RobotDescription with_start_rotations(RobotDescription robot, const MotionStudy& study) {
+RobotDescription with_start(RobotDescription robot, const MotionStudy& study) {
+  for (JointDescription& joint : robot.joints) joint.start_position.reset();
   for (const InitialJointState& initial : study.initial_state) {
     const int joint = tree_joint(robot, initial);
-    if (joint < 0 || !initial.rotation) continue;
+    if (joint < 0) continue;
     JointDescription& description = robot.joints[to_index(joint)];
+    if (initial.position) description.start_position = initial.position;
+    if (initial.guess) description.start_position = Quantity(*initial.guess);
+    if (!initial.rotation) continue;
     if (description.type == JointType::kFloating) description.start_rotation = *initial.rotation;
   }
   return robot;

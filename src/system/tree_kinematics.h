@@ -98,8 +98,8 @@ void state_coordinates(const System& system, const TreeLayout& layout,
 /// -1 for a loop or an unknown name.
 int tree_joint(const RobotDescription& robot, const InitialJointState& initial);
 
-/// The model with the rotations that the study's `initial_state` gives for floating joints as their
-/// JointDescription::start_rotation.
-RobotDescription with_start_rotations(RobotDescription robot, const MotionStudy& study);
+/// The model with what the study's `initial_state` gives of its joints: the rotations of floating
+/// ones as their JointDescription::start_rotation, positions and guesses as start_position.
+RobotDescription with_start(RobotDescription robot, const MotionStudy& study);
 
 }  // namespace codesign

@@ -118,7 +118,36 @@ TEST(Differentiate, FollowsEachTerm) {
 TEST(Differentiate, AForceHasNoRate) {
   const Fixture fixture;
   for (const char* text : {"pitch/acceleration", "pitch/effort", "hold/output",
-                           "arm/angular_velocity/x", "pitch/position + pitch/effort"})
+                           "arm/angular_acceleration/x", "pitch/position + pitch/effort"})
+    EXPECT_THROW(fixture.rate(text), InputError) << text;
+}
+
+TEST(ResolveSignal, AVectorIsToldInTheAxesOfALink) {
+  const Fixture fixture;
+  EXPECT_EQ(fixture.resolve("pitch/reaction_force/x")[0].axes, -1);
+  EXPECT_EQ(fixture.resolve("pitch/reaction_force/x@ground")[0].axes, fixture.robot.root);
+  EXPECT_EQ(fixture.resolve("pitch/reaction_force/x@camera")[0].axes, 3);
+  EXPECT_EQ(fixture.resolve("arm/velocity/x@ground")[0].axes, -1);
+  EXPECT_EQ(fixture.resolve("arm/velocity/x@arm")[0].axes, 2);
+  EXPECT_EQ(fixture.resolve("camera/imu_acceleration/y")[0].axes, 3);
+  EXPECT_EQ(fixture.resolve("camera/imu_acceleration/y@arm")[0].axes, 2);
+  const Signal moment = fixture.resolve("mechanism/shaking_moment/y@arm");
+  EXPECT_EQ(moment[0].kind, SignalKind::kShakingMoment);
+  EXPECT_EQ(moment[0].axis, 1);
+  EXPECT_EQ(moment[0].axes, 2);
+  EXPECT_NE(fixture.refusal("arm/velocity/x@fork").find("its axes cannot be read"),
+            std::string::npos);
+}
+
+// The angular velocity is the same to first order in the axes that it turns.
+TEST(Differentiate, WhatIsToldInTurningAxesHasNoRateButTheirOwnAngularVelocity) {
+  const Fixture fixture;
+  EXPECT_EQ(fixture.rate("arm/angular_velocity/x")[0].kind, SignalKind::kLinkAngularAcceleration);
+  EXPECT_EQ(fixture.rate("arm/angular_velocity/x@arm")[0].kind,
+            SignalKind::kLinkAngularAcceleration);
+  EXPECT_EQ(fixture.rate("arm/imu_angular_velocity/z")[0].kind,
+            SignalKind::kImuAngularAcceleration);
+  for (const char* text : {"arm/velocity/x@arm", "arm/angular_velocity/x@camera"})
     EXPECT_THROW(fixture.rate(text), InputError) << text;
 }
 

@@ -55,10 +55,37 @@ TEST(Signal, NamesMayHoldSlashes) {
   expect_term(terms[3], -1.0, "position/x", "velocity", "y");
 }
 
+TEST(Signal, ALinkBehindAnAtSignNamesTheAxes) {
+  const auto terms = parse(
+                         "a-b/reaction_force/x@left-arm - c/reaction_torque/z@ground-d/velocity/y"
+                         "+left/elbow/reaction_force/x@left/fore.arm")
+                         .terms;
+  ASSERT_EQ(terms.size(), 4U);
+  expect_term(terms[0], 1.0, "a-b", "reaction_force", "x");
+  EXPECT_EQ(terms[0].axes, "left-arm");
+  expect_term(terms[1], -1.0, "c", "reaction_torque", "z");
+  EXPECT_EQ(terms[1].axes, "ground");
+  expect_term(terms[2], -1.0, "d", "velocity", "y");
+  EXPECT_EQ(terms[2].axes, "");
+  expect_term(terms[3], 1.0, "left/elbow", "reaction_force", "x");
+  EXPECT_EQ(terms[3].axes, "left/fore.arm");
+  const SignalDescription formula = parse(
+      "${(a/reaction_force/x@ground-b/reaction_force/x@left/arm)^2 / k + tool/velocity/z@arm*2}");
+  ASSERT_EQ(formula.terms.size(), 3U);
+  expect_term(formula.terms[0], 1.0, "a", "reaction_force", "x");
+  EXPECT_EQ(formula.terms[0].axes, "ground");
+  expect_term(formula.terms[1], 1.0, "b", "reaction_force", "x");
+  EXPECT_EQ(formula.terms[1].axes, "left/arm");
+  expect_term(formula.terms[2], 1.0, "tool", "velocity", "z");
+  EXPECT_EQ(formula.terms[2].axes, "arm");
+  EXPECT_EQ(formula.formula->names[2], "k");
+}
+
 TEST(Signal, RefusesWhatIsNoSignal) {
-  for (const char* text : {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +",
-                           "a/velocity b/velocity", "a/velocity/", "a/velocity/x/y",
-                           "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9"}) {
+  for (const char* text :
+       {"", "crank_joint", "crank_joint/", "/velocity", "a/velocity +", "a/velocity b/velocity",
+        "a/velocity/", "a/velocity/x/y", "a/velocity - - b/velocity", "a/velocity * 2", "2", "a/9",
+        "a/velocity/x@", "a/velocity/x@ b", "a/velocity/x@b c"}) {
     try {
       parse(text);
       ADD_FAILURE() << text;

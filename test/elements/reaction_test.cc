@@ -221,6 +221,59 @@ TEST_P(ReactionConformance, GradientsAreExact) {
   e.expect_exact_derivatives(1e-9);
 }
 
+// The same vector, turned by the rotation matrices of the bodies, which no signal reads.
+TEST_P(ReactionConformance, AreTheSameVectorInTheAxesOfTheGroundAndOfEveryLink) {
+  Compiled c(GetParam().urdf, study_of(GetParam()), GetParam().sharing);
+  ASSERT_TRUE(c.start().ok());
+  if (!GetParam().sharing.drops()) {
+    ASSERT_TRUE(scramble(&c));
+  }
+  const RobotDescription& robot = c.system.robot();
+  const Topology& topology = c.system.topology();
+  const auto vector = [&c](const std::string& name, const std::string& axes) {
+    Eigen::Vector3d value;
+    for (int k = 0; k < 3; ++k) value[k] = reaction_value(&c, name + "/" + "xyz"[k] + axes);
+    return value;
+  };
+  const auto frame = [&](int body, const LinkConstants<double>& link) {
+    c.equations.formulas().load(c.state);
+    return Eigen::Matrix3d(c.equations.formulas().body(body).A * link.R);
+  };
+  for (int j : readable(robot, topology))
+    for (const char* quantity : {"/reaction_force", "/reaction_torque"}) {
+      const JointDescription& joint = robot.joints[static_cast<std::size_t>(j)];
+      const Eigen::Vector3d ground =
+          frame(topology.link_body[static_cast<std::size_t>(joint.child)],
+                c.equations.constants().joint_frames[static_cast<std::size_t>(j)]) *
+          vector(joint.name + quantity, "");
+      const double tolerance = 1e-12 * (1.0 + ground.norm());
+      EXPECT_LT((vector(joint.name + quantity, "@ground") - ground).norm(), tolerance)
+          << joint.name;
+      for (std::size_t link = 0; link < robot.links.size(); ++link) {
+        if (topology.link_body[link] == Topology::kMassless) continue;
+        const Eigen::Vector3d told =
+            frame(topology.link_body[link], c.equations.constants().links[link]).transpose() *
+            ground;
+        EXPECT_LT((vector(joint.name + quantity, "@" + robot.links[link].name) - told).norm(),
+                  tolerance)
+            << joint.name << " in " << robot.links[link].name;
+      }
+    }
+}
+
+// Their own study: more terms than those in the axes of the child would double the time of the test
+// above.
+TEST(Reaction, GradientsInOtherAxesAreExact) {
+  ReactionCase c = reaction_arm();
+  c.study +=
+      "path: [{signal: elbow/reaction_force/x@ground - shoulder/reaction_force/x@ground, upper: "
+      "9}, "
+      "{signal: elbow/reaction_torque/z@upper, at_most: 9}, "
+      "{signal: shoulder/reaction_torque/y@lower, at_most: 9}]\n";
+  EquationsFixture e(c.urdf, study_of(c), c.sharing);
+  e.expect_exact_derivatives(1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(AllJoints, ReactionConformance, ::testing::ValuesIn(reaction_cases()),
                          [](const auto& c) { return c.param.name; });
 
