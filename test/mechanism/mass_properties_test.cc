@@ -19,7 +19,7 @@ using Kind = ShapeDescription::Kind;
 
 ShapeDescription shape(Kind kind, const std::array<Quantity, 3>& size,
                        const QuantityVector& xyz = {}, const QuantityVector& rpy = {}) {
-  return {kind, {xyz, rpy}, size};
+  return {kind, {xyz, rpy}, size, {}};
 }
 
 MassProperties<double> of_shapes(double density, const std::vector<ShapeDescription>& shapes) {
