@@ -122,7 +122,7 @@ TEST(StartRotations, AreTakenOverByFloatingJointsOfTheTreeAlone) {
   }
   EXPECT_EQ(tree_joint(robot, study.initial_state[1]), 1);
   EXPECT_EQ(tree_joint(robot, study.initial_state[2]), -1);
-  const RobotDescription turned = with_start_rotations(robot, study);
+  const RobotDescription turned = with_start(robot, study);
   EXPECT_EQ(turned.joints[0].start_rotation[2].nominal(), 0.3);
   EXPECT_EQ(turned.joints[1].start_rotation[2].nominal(), 0.0);
 }
