@@ -301,9 +301,8 @@ void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
     const bool tests_errors = scenario.system->study().solver.sensitivity_tolerance > 0.0;
     if (tests_errors || !can_replay(scenario.system->study())) return;
     Eigen::VectorXd one;
-    const Status status = differentiate_finer_steps(
-        *scenario.system, scenario.parameters(rho), check->directions,
-        all.extremes.empty() ? Extremes() : all.extremes[k], cancel, &one);
+    const Status status = differentiate_finer_steps(*scenario.system, scenario.parameters(rho),
+                                                    check->directions, cancel, &one);
     if (status.code == StatusCode::kCancelled) check->status = status;
     if (!status.ok() || !one.allFinite()) return;
     sum += factor * one;

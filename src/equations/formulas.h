@@ -65,6 +65,9 @@ class Formulas {
   T watched(std::size_t k, const State<T>& state);
   /// The condition of Study::until at a state: 1 where it holds, else 0; 0 without one.
   T until(const State<T>& state);
+  /// Evaluates the expressions of signals that are watched along a run and have switches, so that a
+  /// recording knows these.
+  void watch_switches(const State<T>& state);
   /// The value of a signal at a state, in SI units.
   T signal(const Signal& signal, const State<T>& state);
 

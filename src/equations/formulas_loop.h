@@ -133,6 +133,21 @@ T Formulas<T>::until(const State<T>& state) {
 }
 
 template <class T>
+void Formulas<T>::watch_switches(const State<T>& state) {
+  const std::vector<Signal>& watched = view_.system.watched();
+  for (std::size_t k = 0; k < watched.size(); ++k) {
+    const WatchedSignal& of = view_.system.study().watched[k];
+    const bool of_signal = watched[k].formula && has_switches(watched[k].formula->steps),
+               of_time = !of.reference.expression.parameters.empty();
+    // A value at the end alone has no instants that switches could move.
+    if (of.role == WatchedSignal::Role::kFinal || (!of_signal && !of_time)) continue;
+    load(state);
+    if (of_signal) formula_value(view_, watched[k]);
+    if (of_time) view_.design.watched[k].at(view_.state->t);
+  }
+}
+
+template <class T>
 T Formulas<T>::signal(const Signal& signal, const State<T>& state) {
   load(state);
   return signal_value(view_, signal);

@@ -202,6 +202,7 @@ ResidualRecording::ResidualRecording(const System& system, std::vector<bool> out
   recording.record_switches(true);
   // First, so that its comparisons are switches also where a law decides the same thing.
   ends_run = equations.formulas.until(equations.state).is(1.0);
+  equations.formulas.watch_switches(equations.state);
   equations.record_residual();
   recording.record_switches(false);
 }

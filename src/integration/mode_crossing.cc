@@ -32,10 +32,20 @@ std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockSte
     const double place = std::min(1.0 + kBeyond, crossing.to + distance);
     if (side_at(crossing.guard, place, step) >= 0.0) continue;
     std::vector<bool> mode = step->equations().compiled().mode_of(point_);
-    if (mode != mode_) return mode;
+    if (mode == mode_) continue;
+    return is_alone(crossing.guard) ? mode : mode_of_one(crossing, step);
   }
   // It leaves its side more slowly than that.
   return beyond(crossing.guard);
+}
+
+// Whether no other guard is beyond zero where residual_ was evaluated. Those that stay at zero, as
+// of bristles at rest, do not count.
+bool ModeWatch::is_alone(int guard) const {
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k)
+    if (k != guard && side(k, residual_) < 0.0 && samples_.row(k).cwiseAbs().maxCoeff() > sizes_[k])
+      return false;
+  return true;
 }
 
 // What decides later switches is expected.
@@ -46,24 +56,30 @@ std::vector<bool> ModeWatch::beyond(int guard) const {
 }
 
 // Guards that are zero at the same instant are crossed one after the other, since each has an
-// instant of its own in other designs: two switching times that are equal. @param mode with all of
-// them beyond. The mode in which only the first one is must have been right for all others before.
-std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, std::vector<bool> mode,
-                                         RosenbrockStep<double>* step) {
+// instant of its own in other designs: two switching times that are equal. The mode in which only
+// the first one is beyond: all others, those that only this mode asks for among them, as they are
+// just before the crossing.
+std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, RosenbrockStep<double>* step) {
   constexpr double kBefore = 1e-6;
-  std::vector<bool> one = mode_;
-  one[to_index(crossing.guard)] = !one[to_index(crossing.guard)];
-  if (mode.size() != one.size() || mode == one ||
-      system_.record_variant({}, EquationPart::kMotion, one)->mode() != one)
-    return mode;
-  Equations<double>& equations = step->equations();
+  constexpr int kMost = 64;
   step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
-  equations.hold(one);
-  equations.compiled().switches(point_, &residual_, &right_);
+  Equations<double>& equations = step->equations();
+  std::vector<bool> mode = beyond(crossing.guard);
+  const auto wrong = [&] {
+    equations.hold(mode);
+    equations.compiled().switches(point_, &residual_, &right_);
+    for (int k = crossing.guard + 1; k < static_cast<int>(mode.size()); ++k)
+      if (mode[to_index(k)] != (residual_[k] > 0.0)) return k;
+    return -1;
+  };
+  int k = wrong();
+  for (int n = 0; k >= 0 && n < kMost; ++n, k = wrong()) {
+    std::vector<bool> begun(mode.begin(), mode.begin() + k);
+    begun.push_back(!mode[to_index(k)]);
+    mode = system_.record_variant({}, EquationPart::kMotion, begun)->mode();
+  }
   equations.hold(mode_);
-  for (int k = 0; k < static_cast<int>(one.size()); ++k)
-    if (k != crossing.guard && has_left(k, side(k, residual_))) return mode;
-  return one;
+  return mode;
 }
 
 double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>& rates) {

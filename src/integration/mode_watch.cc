@@ -98,21 +98,42 @@ bool ModeWatch::has_touched(Assembly* assembly, Equations<double>* equations,
                             EventLog::Entry* entry) {
   if (touch_.guard < 0) return false;
   const int k = std::exchange(touch_.guard, -1);
+  *entry = {touched_.t, equations->compiled().switch_origin(mode_, to_index(k)),
+            !mode_[to_index(k)], true, true};
+  return jumps_beyond(k, touched_, assembly, equations);
+}
+
+EventLog::Entry ModeWatch::touch_at(double time, Equations<double>* equations) const {
+  return {time, equations->compiled().switch_origin(mode_, to_index(guard_)),
+          !mode_[to_index(guard_)], true, true};
+}
+
+bool ModeWatch::jumps_beyond(int k, const State<double>& at, Assembly* assembly,
+                             Equations<double>* equations) {
   ModeChange change;
-  change.before = change.behind = touched_;
+  change.before = change.behind = at;
   change.mode = beyond(k);
-  const auto solve = [&](const std::vector<bool>& mode, State<double>* at, double* g) {
+  const auto solve = [&](const std::vector<bool>& mode, State<double>* state, double* g) {
     equations->hold(mode);
-    if (!assembly->solve_rates(equations, at).ok()) return false;
-    equations->residual(*at, &residual_, g);
+    if (!assembly->solve_rates(equations, state).ok()) return false;
+    equations->residual(*state, &residual_, g);
     return true;
   };
   const bool is_solved = solve(change.mode, &change.behind, &change.g) &&
                          solve(mode_, &change.before, &change.g_before);
   equations->hold(mode_);
-  *entry = {touched_.t, equations->compiled().switch_origin(mode_, to_index(k)),
-            !mode_[to_index(k)], true, true};
   return is_solved && has_jump(change);
+}
+
+void ModeWatch::find_zeros(const State<double>& at, Equations<double>* equations,
+                           std::vector<int>* zeros) {
+  zeros->clear();
+  if (!is_active()) return;
+  equations->compiled().switches(at, &residual_, &right_);
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k)
+    if (std::abs(residual_[k]) <=
+        kCancelled * (std::abs(right_[k]) + std::abs(right_[k] - residual_[k])))
+      zeros->push_back(k);
 }
 
 ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
@@ -155,9 +176,10 @@ ModeWatch::Crossing ModeWatch::crossing_at_end(RosenbrockStep<double>* step) {
   return {};
 }
 
-// The Illinois variant of the regula falsi, on the dense output.
+// The Illinois variant of the regula falsi, on the dense output; with bisections where that is
+// slow, as at a multiple root.
 double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step) {
-  constexpr int kMost = 60;
+  constexpr int kMost = 120, kUsual = 12;
   constexpr double kEnough = 1e-14;
   double a = crossing.from, b = crossing.to, at_a = side_at(crossing.guard, a, step),
          at_b = side_at(crossing.guard, b, step);
@@ -165,7 +187,9 @@ double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step)
   if (at_a <= 0.0) return a;
   int last = 0;
   for (int k = 0; k < kMost && b - a > kEnough; ++k) {
-    const double middle = std::clamp((a * at_b - b * at_a) / (at_b - at_a), a, b),
+    const bool bisects = k > kUsual && k % 2 == 0;
+    const double secant = std::clamp((a * at_b - b * at_a) / (at_b - at_a), a, b),
+                 middle = bisects ? 0.5 * (a + b) : secant,
                  value = side_at(crossing.guard, middle, step);
     if (value < 0.0) {
       b = middle, at_b = value;
@@ -244,7 +268,7 @@ bool ModeWatch::cut(RosenbrockStep<double>* step) {
   // A guard that is beyond zero from the beginning on jumped there: it has no instant of its own.
   if (!has_left(crossing.guard, side(crossing.guard, samples_.col(0)))) guard_ = crossing.guard;
   is_due_ = true;
-  next_mode_ = mode_of_one(crossing, mode_beyond(crossing, step), step);
+  next_mode_ = mode_beyond(crossing, step);
   const auto row = samples_.row(crossing.guard);
   guard_pace_ = (row.maxCoeff() - row.minCoeff()) / step_size_;
   return crossing.from >= 1.0 ||

@@ -68,6 +68,16 @@ class ModeWatch {
     const double rate = guard_rate(guard_, at, rates);
     return is_touched(rate) ? 0.0 : rate;
   }
+  /// Whether the motion is hardly more than tangent to the guard at which the last attempt was cut.
+  /// @param rate end_rate() of it.
+  bool grazes(double rate) const { return !(std::abs(rate) > kGrazing * guard_pace_); }
+  /// That guard for the log, as one that is only touched, while the mode before it is held.
+  EventLog::Entry touch_at(double time, Equations<double>* equations) const;
+  /// The switches of the mode whose guards are zero at a state, but for rounding.
+  void find_zeros(const State<double>& at, Equations<double>* equations, std::vector<int>* zeros);
+  /// Whether the motion jumps behind a guard that is zero at a state.
+  bool jumps_beyond(int k, const State<double>& at, Assembly* assembly,
+                    Equations<double>* equations);
   /// Whether the mode must be looked at before the next step.
   bool is_due() const { return is_due_; }
   /// After a step was accepted: whether it touched a guard without passing it, behind which the
@@ -123,8 +133,8 @@ class ModeWatch {
   bool has_jump(const ModeChange& change) const;
   std::vector<bool> beyond(int guard) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
-  std::vector<bool> mode_of_one(const Crossing& crossing, std::vector<bool> mode,
-                                RosenbrockStep<double>* step);
+  std::vector<bool> mode_of_one(const Crossing& crossing, RosenbrockStep<double>* step);
+  bool is_alone(int guard) const;
   Status enter(Assembly* assembly, Equations<double>* equations, ModeChange* change);
   int jumped_guard(const ModeChange& change, Equations<double>* equations);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,

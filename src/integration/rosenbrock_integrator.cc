@@ -169,6 +169,16 @@ Status RosenbrockIntegrator::look_for_end(const State<double>& behind) {
   return {};
 }
 
+Status RosenbrockIntegrator::judge_end(double rate) {
+  if (!mode_watch_.grazes(rate)) return {};
+  const EventLog::Entry entry = mode_watch_.touch_at(step_.state().t, &step_.equations());
+  log_.touch(entry);
+  if (rate != 0.0) return {};
+  return {StatusCode::kNonFiniteGradient, entry.time,
+          "the run ends where it only touches the guard of " +
+              describe_switch(system_, entry.origin) + ": the time of its end has no derivative"};
+}
+
 Status RosenbrockIntegrator::sample() {
   jump_events_ = clock_.due(step_.state().t);
   if (jump_events_.empty()) return {};
@@ -228,6 +238,24 @@ double RosenbrockIntegrator::further_error(const BeforeAccept& before_accept) {
   return error <= 1.0 && before_accept ? std::max(error, before_accept(&step_)) : error;
 }
 
+// Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is left
+// before its end.
+RosenbrockIntegrator::NextStep RosenbrockIntegrator::next_step(double t, double limit,
+                                                               double smallest) const {
+  double h = proposal_;
+  if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
+  const double end = end_of_step(clock_.next(breaks_.next(t, limit)), limit, smallest),
+               rest = end - t;
+  const bool last = h >= rest / 1.1;
+  if (last) h = rest;
+  while (last && t + h < end) h = std::nextafter(h, end);
+  if (!last && h > 0.5 * rest) h = 0.5 * rest;
+  // All stages see functions of time as they are before a break, where guards may jump.
+  const bool breaks = last && mode_watch_.is_active() && breaks_.contains(end);
+  if (breaks) h = std::nextafter(end, t) - t;
+  return {h, end, last, breaks};
+}
+
 Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_accept) {
   if (Status status = jump(); !status.ok() || is_ended()) return status;
   choose_method();
@@ -246,16 +274,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
                      "more than " + std::to_string(options_.maximum_steps) +
                          " steps (solver.maximum_steps)"});
     if (cancelled()) return {StatusCode::kCancelled, t, "cancelled"};
-    double h = proposal_;
-    if (options_.maximum_step > 0.0) h = std::min(h, options_.maximum_step);
-    // Stretches the step by up to a tenth or halves the remaining time, so that no tiny step is
-    // left before the limit.
-    const double end = end_of_step(clock_.next(breaks_.next(t, limit)), limit, smallest),
-                 rest = end - t;
-    const bool last = h >= rest / 1.1;
-    if (last) h = rest;
-    while (last && t + h < end) h = std::nextafter(h, end);
-    if (!last && h > 0.5 * rest) h = 0.5 * rest;
+    const NextStep next = next_step(t, limit, smallest);
+    const double h = next.h;
     if (!(h >= smallest))
       return judged(singular
                         ? Status{StatusCode::kSingularMatrix, t,
@@ -279,13 +299,32 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
       continue;
     }
     // After a step that the limit cut short, the earlier proposal is the better one.
-    if (last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
+    if (next.is_last && h < 0.5 * kept) proposal_ = std::max(proposal_, kept);
     proposal_ = stability_.shorten(proposal_);
     if (!step_.accept())
       return {StatusCode::kSingularMatrix, t + step_.step_size(),
               "the augmented matrix of the equations of motion is singular"};
+    if (next.ends_at_break && step_.step_size() == h) cross_break(next.end);
     return judged(look());
   }
+}
+
+// Accelerations may jump with a function of time, and guards with them. A jump of G is compared
+// with its loads, which are left without accelerations and multipliers.
+void RosenbrockIntegrator::cross_break(double t) {
+  constexpr double kSame = 1e-9;
+  Equations<double>& equations = step_.equations();
+  double g_before = 0.0, g_behind = 0.0, unused = 0.0;
+  equations.residual(step_.state(), &residual_before_, &g_before);
+  step_.set_time(t);
+  equations.residual(step_.state(), &residual_behind_, &g_behind);
+  const double jump = (residual_before_ - residual_behind_).lpNorm<Eigen::Infinity>();
+  behind_jump_ = step_.state();
+  behind_jump_.z.setZero();
+  equations.residual(behind_jump_, &residual_behind_, &unused);
+  if (jump > kSame * residual_behind_.lpNorm<Eigen::Infinity>() ||
+      std::abs(g_before - g_behind) > kSame * std::abs(g_behind))
+    mode_watch_.look_again();
 }
 
 Status RosenbrockIntegrator::look() {

@@ -55,11 +55,19 @@ class RosenbrockIntegrator final : public Integrator {
   /// The first change of the mode in the last jump(); its `guard` is -1 if a step did not end there
   /// because of a guard.
   const ModeChange& mode_change() const { return mode_change_; }
-  /// The guard that has ended the run, -1 if none; and its rate at the end.
+  /// The guard at whose zero the last step ended, before jump() carries the run over it; -1 if
+  /// none.
+  int guard() const { return mode_watch_.is_due() ? mode_watch_.guard() : -1; }
+  /// The guard that has ended the run, -1 if none.
   int end_guard() const { return is_ended() ? mode_watch_.guard() : -1; }
-  double end_guard_rate(const State<double>& at, const State<double>& rates) {
+  /// The rate of either along the motion before it [per s]; 0 if it is only touched.
+  double guard_rate(const State<double>& at, const State<double>& rates) {
     return mode_watch_.end_rate(at, rates);
   }
+  /// Looks at the guard that has ended the run: warns of `grazing_event` if it is hardly more than
+  /// touched. @param rate of it. @returns kNonFiniteGradient if the end has no derivative.
+  Status judge_end(double rate);
+  ModeWatch& mode_watch() { return mode_watch_; }
   /// The mode that the equations hold now; empty without switches.
   const std::vector<bool>& mode() const { return mode_watch_.mode(); }
   bool ends_at_switch() const override { return mode_watch_.is_due(); }
@@ -84,10 +92,18 @@ class RosenbrockIntegrator final : public Integrator {
   /// returns the scaled error of what else takes part.
   double further_error(const BeforeAccept& before_accept);
   double first_step() const;
+  struct NextStep {
+    double h, end;               ///< size, and where steps end at the latest [s]
+    bool is_last;                ///< whether it reaches `end`
+    bool ends_at_break = false;  ///< a rounding before a break time
+  };
+  NextStep next_step(double t, double limit, double smallest) const;
   /// Takes another method for the next step if the last one suggests that.
   void choose_method();
   /// Whether stability allows the last attempt, of size h [s]; else shortens the next one.
   bool is_stable(double h);
+  /// Moves the end of the last step to a break time.
+  void cross_break(double t);
   /// Counts and checks a step that was accepted.
   Status look();
 
@@ -97,6 +113,7 @@ class RosenbrockIntegrator final : public Integrator {
   ControlClock clock_;
   std::vector<ControlEvent> jump_events_;
   State<double> before_jump_, behind_jump_;
+  VectorX<double> residual_before_, residual_behind_;
   RosenbrockStep<double> step_;
   Assembly assembly_;
   State<double> initial_;

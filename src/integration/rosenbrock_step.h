@@ -46,6 +46,10 @@ class RosenbrockStep {
   /// stays.
   void restart(const State<T>& state);
 
+  /// Moves the end of the last step to an instant that is less than the rounding of times behind
+  /// it.
+  void set_time(double t) { state_.t = t; }
+
   /// Adds to psi(), whose derivatives jump where a guard determines an instant.
   void add_psi(const T& change) { psi_ += change; }
 

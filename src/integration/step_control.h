@@ -122,6 +122,8 @@ class BreakTimes {
 
   /// The first break time after `t` if it is before `limit`, else `limit`; all in [s].
   double next(double t, double limit) const;
+  /// Whether `t` is a break time.
+  bool contains(double t) const { return std::binary_search(times_.begin(), times_.end(), t); }
   /// All break times [s], ascending.
   const std::vector<double>& times() const { return times_; }
 

@@ -54,8 +54,6 @@ class EndMotion {
   const State<double>& rates() const { return rates_; }
 
  private:
-  double rate_of(const SparseGradient<double>& gradient) const;
-
   const CompiledSystem* system_;
   Eigen::VectorXd time_;
   int guard_ = -1;

@@ -32,11 +32,11 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
 bool can_replay(const MotionStudy& study);
 
 /// The derivatives of psi along `directions` (empty: by each tuned parameter) through the steps of
-/// a run with a hundredth of the study's tolerances. @param extremes of a run with its own ones.
+/// a run with a hundredth of the study's tolerances.
 Status differentiate_finer_steps(const CompiledSystem& system,
                                  const std::vector<double>& parameters,
-                                 const Eigen::MatrixXd& directions, const Extremes& extremes,
-                                 const std::atomic<bool>* cancel, Eigen::VectorXd* derivatives);
+                                 const Eigen::MatrixXd& directions, const std::atomic<bool>* cancel,
+                                 Eigen::VectorXd* derivatives);
 
 /// `count` pseudo-random directions, always the same ones, along which each parameter changes the
 /// objective by a similar amount, with either sign; a parameter with a component below a thousandth

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "math/arrays.h"
+#include "sensitivity/motion_rates.h"
 
 namespace codesign {
 namespace {
@@ -26,6 +27,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       watch_(system),
       residuals_(system),
       end_(system),
+      one_sided_(system),
       is_identity_(control_directions(system).isIdentity()) {
   const double tolerance = sensitivity_tolerance(system.study().solver);
   stages_ = [this, tolerance](RosenbrockStep<double>* step) {
@@ -48,13 +50,19 @@ Status RosenbrockGradient::start(const std::vector<double>& parameters, Derivati
   with_gradient_ = derivatives != Derivatives::kNone;
   with_root_ = derivatives == Derivatives::kGaussNewton;
   end_.start();
+  one_sided_.start();
   integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
   if (with_gradient_ && judges_parameters())
     control_.reset();
   else if (with_gradient_ && !control_)
     control_ = make_control_tangent(system_);
-  if (status.ok() && with_gradient_) carry(0, parameters);
+  if (status.ok() && with_gradient_) {
+    carry(0, parameters);
+    one_sided_.look_at_start(&integrator_, [this](int guard, Eigen::VectorXd* by) {
+      guard_time(guard, -1.0, integrator_.initial_state(), by);
+    });
+  }
   return status.ok() ? start_watches() : status;
 }
 
@@ -130,14 +138,35 @@ Status RosenbrockGradient::jump() {
 
 // A jump may make the condition true that ends the run. Its instant moves with its guard.
 void RosenbrockGradient::look_at_jump() {
-  time_of_jump_.setZero(count());
   const ModeChange& change = integrator_.mode_change();
-  if (change.guard < 0) return;
+  if (change.guard >= 0)
+    guard_time(change.guard, change.guard_rate, change.end, &time_of_jump_);
+  else
+    time_of_jump_.setZero(count());
+}
+
+void RosenbrockGradient::guard_time(int guard, double rate, const State<double>& end,
+                                    Eigen::VectorXd* time) {
+  time->setZero(count());
   groups_->for_each([&](auto* group) {
-    time_of_jump_.segment(group->range.first, group->range.count) =
-        group->step.guard_time(change.guard, change.guard_rate, change.end)
-            .head(group->range.count);
+    time->segment(group->range.first, group->range.count) =
+        group->step.guard_time(guard, rate, end).head(group->range.count);
   });
+}
+
+// Extreme values there move along. The end of a run has its own derivatives.
+Status RosenbrockGradient::look_at_switch() {
+  switch_ = {};
+  switch_time_.resize(0);
+  if (watch_.is_empty() || integrator_.has_ended() || integrator_.guard() < 0) return {};
+  motion_ = integrator_.state();
+  if (Status status = solve_motion(&integrator_, &motion_, &motion_rates_); !status.ok())
+    return status;
+  const double rate = integrator_.guard_rate(motion_, motion_rates_);
+  if (rate == 0.0) return {};
+  switch_ = {integrator_.guard(), rate};
+  guard_time(switch_.guard, rate, integrator_.state(), &switch_time_);
+  return {};
 }
 
 Status RosenbrockGradient::look_at_end() {
@@ -148,12 +177,9 @@ Status RosenbrockGradient::look_at_end() {
   if (Status status = end_.evaluate(&integrator_, time); !status.ok()) return status;
   const int guard = integrator_.end_guard();
   if (guard < 0) return {};
-  const double rate = integrator_.end_guard_rate(end_.state(), end_.rates());
-  time.setZero(count());
-  groups_->for_each([&](auto* group) {
-    time.segment(group->range.first, group->range.count) =
-        group->step.guard_time(guard, rate, integrator_.state()).head(group->range.count);
-  });
+  const double rate = integrator_.guard_rate(end_.state(), end_.rates());
+  if (Status status = integrator_.judge_end(rate); !status.ok()) return status;
+  guard_time(guard, rate, integrator_.state(), &time);
   end_.set_guard(guard, rate, time);
   return {};
 }
@@ -173,8 +199,10 @@ Status RosenbrockGradient::advance(double limit) {
   const bool has_stepped = time() > before;
   if (with_gradient_ && has_stepped) accept();
   if (with_gradient_) status = look_at_end();
+  if (with_gradient_ && status.ok()) status = look_at_switch();
   if (status.ok() && with_root_) residuals_.look();
-  if (status.ok() && !watch_.is_empty()) status = has_stepped ? watch_.look() : watch_.end();
+  if (status.ok() && !watch_.is_empty())
+    status = has_stepped ? watch_.look(switch_time_) : watch_.end();
   return status;
 }
 
@@ -185,8 +213,8 @@ double RosenbrockGradient::objective() {
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
   gradient->setConstant(count(), std::numeric_limits<double>::quiet_NaN());
-  collect(gradient);
-  if (most_lanes() >= count()) return;
+  collect(integrator_.state(), gradient);
+  if (most_lanes() >= count()) return look_beyond_end(*gradient);
   const double end = time();
   const std::vector<double> parameters = integrator_.equations().parameters();
   for (int first = most_lanes(); first < count(); first += most_lanes()) {
@@ -194,18 +222,47 @@ void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
     carry(first, parameters);
     while (time() < end)
       if (!advance(integrator_.end()).ok()) return;
-    collect(gradient);
+    collect(integrator_.state(), gradient);
   }
 }
 
-void RosenbrockGradient::collect(Eigen::VectorXd* gradient) {
+// The gradient of runs that end behind a guard which is zero at the end of this one.
+void RosenbrockGradient::look_beyond_end(const Eigen::VectorXd& gradient) {
+  if (integrator_.is_ended() || integrator_.guard() < 0) return;
+  ModeWatch& watch = integrator_.mode_watch();
+  const std::vector<bool> mode = watch.mode();
+  const SwitchOrigin* const origin =
+      integrator_.equations().compiled().switch_origin(mode, to_index(integrator_.guard()));
+  ModeChange change;
+  if (!watch.cross(integrator_.state(), &integrator_.assembly(), &integrator_.equations(), &change)
+           .ok())
+    return;
+  const bool has_jumped = change.guard >= 0;
+  Eigen::VectorXd behind = gradient, time = Eigen::VectorXd::Zero(count());
+  if (has_jumped) guard_time(change.guard, change.guard_rate, change.end, &time);
   groups_->for_each([&](auto* group) {
-    const auto total = (group->step.psi() + group->step.terminal(integrator_.state())).eval();
-    auto part = gradient->segment(group->range.first, group->range.count);
-    part = total.head(group->range.count);
-    if (end_.moves())
-      part += end_.objective_rate() * end_.time().segment(group->range.first, group->range.count);
+    const auto kept = group->step.directions();
+    if (has_jumped) group->step.cross(change);
+    group->step.jump({}, integrator_.state(), change.behind, integrator_.assembly(), watch.mode());
+    collect(group, change.behind, &behind);
+    group->step.go_back(kept, mode);
   });
+  integrator_.equations().hold(mode);
+  one_sided_.compare(origin, gradient, behind, !watch_.is_empty() && !time.isZero(0.0));
+}
+
+void RosenbrockGradient::collect(const State<double>& end, Eigen::VectorXd* gradient) {
+  groups_->for_each([&](auto* group) { collect(group, end, gradient); });
+}
+
+template <int N>
+void RosenbrockGradient::collect(Group<N>* group, const State<double>& end,
+                                 Eigen::VectorXd* gradient) const {
+  const auto total = (group->step.psi() + group->step.terminal(end)).eval();
+  auto part = gradient->segment(group->range.first, group->range.count);
+  part = total.head(group->range.count);
+  if (end_.moves())
+    part += end_.objective_rate() * end_.time().segment(group->range.first, group->range.count);
 }
 
 }  // namespace codesign

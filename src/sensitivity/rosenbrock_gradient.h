@@ -10,6 +10,7 @@
 #include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
+#include "sensitivity/one_sided.h"
 #include "sensitivity/residual_rows.h"
 #include "sensitivity/signal_watch.h"
 #include "sensitivity/tangent_step.h"
@@ -44,8 +45,21 @@ class RosenbrockGradient final : public GradientEngine {
     residuals_.finish(integrator_.state(), root);
   }
   const Extremes& extremes() const override { return watch_.extremes(); }
+  /// SignalWatch::slopes().
+  const Eigen::VectorXd& slopes() const { return watch_.slopes(); }
+  /// The guard at whose zero the last step ended, with its rate there, where that moves watched
+  /// signals; -1 if none did.
+  struct Switch {
+    int guard = -1;
+    double rate = 0.0;  ///< s_t + s_x f- [per s]
+  };
+  const Switch& last_switch() const { return switch_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }
-  Warnings warnings() const override { return integrator_.warnings(); }
+  Warnings warnings() const override {
+    Warnings all = integrator_.warnings();
+    append(one_sided_.warnings(), &all);
+    return all;
+  }
   const EventLog* events() const override { return &integrator_.events(); }
   void obey(const std::atomic<bool>* cancel) override { integrator_.obey(cancel); }
 
@@ -75,7 +89,15 @@ class RosenbrockGradient final : public GradientEngine {
   /// Finds out how the end of the run moves, if it has ended.
   Status look_at_end();
   void look_at_jump();
-  void collect(Eigen::VectorXd* gradient);
+  /// Finds out how the instant moves at which a guard has ended the last step.
+  Status look_at_switch();
+  /// tau' of theory (18g) by all parameters.
+  void guard_time(int guard, double rate, const State<double>& end, Eigen::VectorXd* time);
+  /// @param end of the run, with its z.
+  void collect(const State<double>& end, Eigen::VectorXd* gradient);
+  template <int N>
+  void collect(Group<N>* group, const State<double>& end, Eigen::VectorXd* gradient) const;
+  void look_beyond_end(const Eigen::VectorXd& gradient);
   void differentiate(std::size_t watched, const State<double>& state, bool reads_rates,
                      Eigen::VectorXd* gradient);
   void differentiate_residuals(ObjectivePart part, const State<double>& state,
@@ -92,8 +114,12 @@ class RosenbrockGradient final : public GradientEngine {
   SignalWatch watch_;
   ResidualRows residuals_;
   EndMotion end_;
+  OneSidedGradient one_sided_;
   Eigen::VectorXd time_of_jump_;  ///< derivatives of the time of a jump that ends the run
-  const bool is_identity_;        ///< whether control_directions() are the parameters
+  Switch switch_;
+  Eigen::VectorXd switch_time_;  ///< derivatives of the time of `switch_`; or empty
+  State<double> motion_, motion_rates_;
+  const bool is_identity_;  ///< whether control_directions() are the parameters
   bool with_gradient_ = false, with_root_ = false;
 };
 

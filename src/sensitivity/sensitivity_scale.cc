@@ -23,6 +23,9 @@ constexpr double kLeastShare = 1e-3;
 // rounding, where sensitivities vanish.
 constexpr double kAbsoluteShare = 1e-3;
 
+// A contact is short if it turns velocities round in less than this share of the study.
+constexpr double kShortShare = 0.1;
+
 double square(double x) { return x * x; }
 
 }  // namespace
@@ -31,7 +34,12 @@ template <int N>
 void SensitivityScale<N>::start(const CompiledSystem& system,
                                 const std::vector<Lanes<N>>& parameters) {
   const MotionStudy& study = system.study();
-  for (Array* all : {&q_, &v_, &s_, &psi_, &per_value_, &per_range_}) all->setZero();
+  for (Array* all : {&q_, &s_, &per_value_, &per_range_}) all->setZero();
+  for (Size* all : {&v_, &psi_})
+    for (Array* array : {&all->largest, &all->last, &all->integral}) array->setZero();
+  time_ = 0.0;
+  duration_ = study.duration;
+  may_touch_ = system.has_switches();
   // Of lanes without a parameter.
   per_range_.setConstant(1e-200);
   q_square_ = v_square_ = s_square_ = 0.0;
@@ -47,15 +55,40 @@ void SensitivityScale<N>::start(const CompiledSystem& system,
 }
 
 template <int N>
+bool SensitivityScale<N>::is_short_contact(const State<double>& state) const {
+  const double v_square = std::max(v_square_, state.v.squaredNorm());
+  return may_touch_ &&
+         state.z.head(state.v.size()).squaredNorm() * square(kShortShare * duration_) > v_square;
+}
+
+template <int N>
+typename SensitivityScale<N>::Array SensitivityScale<N>::counted(const Size& of, const Array& now,
+                                                                 double t, bool is_short) const {
+  if (!is_short || !(t > 0.0)) return now;
+  const Array integral = of.integral + 0.5 * (t - time_) * (of.last + now.sqrt());
+  return now.min((integral / t).square());
+}
+
+template <int N>
+void SensitivityScale<N>::extend(const Array& now, double t, bool is_short, Size* of) const {
+  of->largest = of->largest.max(counted(*of, now, t, is_short));
+  const Array size = now.sqrt();
+  of->integral += 0.5 * (t - time_) * (of->last + size);
+  of->last = size;
+}
+
+template <int N>
 void SensitivityScale<N>::measure(const IncrementLayout& at, const State<double>& state,
                                   const Directions<N>& y) {
   q_square_ = std::max(q_square_, state.q.squaredNorm());
   v_square_ = std::max(v_square_, state.v.squaredNorm());
   s_square_ = std::max(s_square_, state.s.squaredNorm());
   q_ = q_.max(squared_norms(y, at.x(), at.n));
-  v_ = v_.max(squared_norms(y, at.v(), at.n));
   s_ = s_.max(squared_norms(y, at.s(), at.states));
-  psi_ = psi_.max(y.col(at.psi()).array().square());
+  const bool is_short = is_short_contact(state);
+  extend(squared_norms(y, at.v(), at.n), state.t, is_short, &v_);
+  extend(y.col(at.psi()).array().square(), state.t, is_short, &psi_);
+  time_ = state.t;
 }
 
 template <int N>
@@ -69,16 +102,21 @@ double SensitivityScale<N>::error(const IncrementLayout& at, const Attempt& atte
     return (error / size.max(least)).maxCoeff();
   };
   const Directions<N>&u = attempt.estimate, &y = attempt.end;
+  const bool is_short = is_short_contact(attempt.state);
+  const auto size_of = [&](const Size& of, const Array& now) {
+    return Array(of.largest.max(counted(of, now, attempt.state.t, is_short)));
+  };
   const double q = judge(squared_norms(u, at.x(), at.n), q_.max(squared_norms(y, at.x(), at.n)),
                          rounding.max(share * q_square_)),
-               v = judge(squared_norms(u, at.v(), at.n), v_.max(squared_norms(y, at.v(), at.n)),
+               v = judge(squared_norms(u, at.v(), at.n),
+                         size_of(v_, squared_norms(y, at.v(), at.n)),
                          rounding.max(share * v_square_)),
                // Bristles are micrometres beside joints that turn, and carry the whole friction.
       s = at.states == 0
               ? 0.0
               : judge(squared_norms(u, at.s(), at.states),
                       s_.max(squared_norms(y, at.s(), at.states)), floor.max(share * s_square_)),
-               psi = judge(u.col(at.psi()).array().square(), psi_.max(attempt.psi.square()),
+               psi = judge(u.col(at.psi()).array().square(), size_of(psi_, attempt.psi.square()),
                            floor.max(share * square(attempt.objective)));
   // A derivative that is not finite at any step size is reported by the gradient.
   const double largest = std::max({q, v, s, psi});

@@ -18,7 +18,8 @@ struct State;
 
 /// The error test of sensitivities along N directions, doc/theory.md (18f). Positions, velocities,
 /// extra states and psi are judged apart, each direction in the scale of its own largest size so
-/// far.
+/// far. Within a short contact, sensitivities of velocities are the acceleration times a shift of
+/// the time, and vanish with it: sizes there count as at most the mean over the time so far.
 template <int N>
 class SensitivityScale {
  public:
@@ -26,7 +27,8 @@ class SensitivityScale {
 
   /// What a step does to the sensitivities.
   struct Attempt {
-    const Directions<N>& end;       ///< at its end, positions, extra states and velocities
+    const State<double>& state;     ///< at its end, with its z
+    const Directions<N>& end;       ///< there, positions, extra states and velocities
     const Directions<N>& estimate;  ///< of its error
     Array psi;                      ///< psi' at its end
     double objective;               ///< psi at its beginning
@@ -40,11 +42,26 @@ class SensitivityScale {
   double error(const IncrementLayout& at, const Attempt& attempt, double tolerance) const;
 
  private:
-  Array q_, v_, s_, psi_;        ///< squares of the largest sizes so far
+  /// The size of a sensitivity over the run.
+  struct Size {
+    Array largest;   ///< square of the largest one so far
+    Array last;      ///< at the end of the last step
+    Array integral;  ///< over the time
+  };
+  /// The square of a size, `now`, as it counts at time t.
+  Array counted(const Size& of, const Array& now, double t, bool is_short) const;
+  void extend(const Array& now, double t, bool is_short, Size* of) const;
+  /// Whether velocities change by as much as the largest one in a small part of the run.
+  bool is_short_contact(const State<double>& state) const;
+
+  Array q_, s_;  ///< squares of the largest sizes so far
+  Size v_, psi_;
   Array per_value_, per_range_;  ///< squares of what a direction is in units of the parameters'
                                  ///< values and ranges
   double q_square_ = 0.0, v_square_ = 0.0, s_square_ = 0.0;  ///< of the motion itself
-  double absolute_ = 0.0;  ///< an error over the range that does not count
+  double absolute_ = 0.0;               ///< an error over the range that does not count
+  double time_ = 0.0, duration_ = 0.0;  ///< of the last step's end, and of the study [s]
+  bool may_touch_ = false;              ///< whether there are switches, as each contact has one
 };
 
 /// The tolerance of sensitivities in the error test of a run with gradient:

@@ -11,6 +11,7 @@
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "math/arrays.h"
+#include "sensitivity/motion_rates.h"
 
 namespace codesign {
 namespace {
@@ -22,60 +23,15 @@ constexpr double kRounding = 1e-14;  // fraction of the duration: where a step e
                                      // the two may differ by rounding
 constexpr int kBits = 50;            // accuracy of the instant of an extremum
 constexpr std::uintmax_t kMostIterations = 60;
+constexpr double kShort = 4.0;  // in units of what slopes are taken inside of a step
+constexpr double kNear = 1e-9;  // fraction of the duration: a number just inside a step beside one
+                                // at its end
 
 bool jumps(double before, double after) {
   return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after));
 }
 
 }  // namespace
-
-Peak find_peak(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
-  const RangePlaces range = find_range(entry, values);
-  if (std::abs(values[range.smallest]) > std::abs(values[range.largest]))
-    return {range.smallest, -1.0};
-  return {range.largest, values[range.largest] < 0.0 ? -1.0 : 1.0};
-}
-
-RangePlaces find_range(const WatchLayout::Entry& entry, const Eigen::VectorXd& values) {
-  RangePlaces range{entry.first, entry.first};
-  for (int k = entry.first; k < entry.measure(); ++k) {
-    if (values[k] > values[range.largest]) range.largest = k;
-    if (values[k] < values[range.smallest]) range.smallest = k;
-  }
-  return range;
-}
-
-double watched_term(const WatchedSignal& watched, const WatchLayout::Entry& entry,
-                    const Extremes& extremes, Eigen::VectorXd* gradient) {
-  if (!is_term(watched)) return 0.0;
-  const Peak number = watched.role == WatchedSignal::Role::kPeak ? find_peak(entry, extremes.values)
-                                                                 : Peak{entry.measure(), 1.0};
-  const double factor = watched.weight * number.sign;
-  if (gradient) *gradient += factor * extremes.gradients.col(number.place);
-  return factor * extremes.values[number.place];
-}
-
-double watched_terms(const MotionStudy& study, const WatchLayout& layout, const Extremes& extremes,
-                     Eigen::VectorXd* gradient) {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < study.watched.size(); ++k)
-    sum += watched_term(study.watched[k], layout.entries()[k], extremes, gradient);
-  return sum;
-}
-
-void set_measure(const WatchedSignal& watched, const WatchLayout::Entry& entry,
-                 Extremes* extremes) {
-  const RangePlaces range = find_range(entry, extremes->values);
-  const bool minimum = watched.measure == WatchedSignal::Measure::kMinimum,
-             stroke = watched.measure == WatchedSignal::Measure::kStroke;
-  const int from = minimum ? range.smallest : range.largest, place = entry.measure();
-  extremes->times[place] = extremes->times[from];
-  extremes->values[place] =
-      extremes->values[from] - (stroke ? extremes->values[range.smallest] : 0.0);
-  if (extremes->gradients.rows() == 0) return;
-  extremes->gradients.col(place) = extremes->gradients.col(from);
-  if (stroke) extremes->gradients.col(place) -= extremes->gradients.col(range.smallest);
-}
 
 SignalWatch::SignalWatch(const CompiledSystem& system)
     : system_(system),
@@ -93,6 +49,9 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
   time_ = integrator->state().t;
   clock_.start();
   begins_at_jump_ = ends_at_jump_ = false;
+  begin_time_.resize(0);
+  end_time_.resize(0);
+  slopes_.setZero(layout_.size());
   const auto parameters = to_signed(differentiate_ ? system_.study().tuned.size() : 0);
   extremes_.values.setConstant(layout_.size(), std::numeric_limits<double>::quiet_NaN());
   extremes_.times.setZero(layout_.size());
@@ -110,9 +69,11 @@ Status SignalWatch::start(Integrator* integrator, Differentiate differentiate) {
   return status_;
 }
 
-Status SignalWatch::look() {
+Status SignalWatch::look(const Eigen::VectorXd& end_time) {
   const double from = time_, to = integrator_->state().t;
   begins_at_jump_ = ends_at_jump_;
+  begin_time_.swap(end_time_);
+  end_time_ = end_time;
   ends_at_jump_ = !clock_.due(to).empty() || integrator_->ends_at_switch();
   for (std::size_t k = 0; k < curves_.size() && status_.ok(); ++k) follow(k, from, to);
   time_ = to;
@@ -154,13 +115,7 @@ SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   if (curves_[k].reads_rates)
     integrator_->assembly().differentiate_rates(state_, &integrator_->equations(), &rates_);
   result.value = integrator_->equations().watched_gradient(k, state_, &sparse_);
-  result.slope = sparse_.time;
-  const Layout& layout = system_.layout();
-  for (const auto& e : sparse_.position)
-    result.slope +=
-        e.value * (e.column < layout.n ? rates_.q[e.column] : rates_.s[e.column - layout.n]);
-  for (const auto& e : sparse_.velocity) result.slope += e.value * rates_.v[e.column];
-  for (const auto& e : sparse_.rate) result.slope += e.value * rates_.z[e.column];
+  result.slope = rate_along(sparse_, rates_, system_.layout());
   if (!std::isfinite(result.value) || !std::isfinite(result.slope)) status_ = failed(k, time);
   return result;
 }
@@ -190,13 +145,16 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
     while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack)
       reach_instant(k, at);
   };
-  if (instants.size() == 1) return reach(end, end);
+  // Two guards that are zero at the same instant end steps whose slopes are rounding.
+  if (instants.size() == 1 || to - from < kShort * slack) return reach(end, end);
   reach(begin, begin);
   if (!status_.ok()) return;
   Sample last = sample(k, inside(begin));
   pass_gap(k, last);
   // Where one step ends and the next begins, the slope may jump.
-  if (last.slope * curve.end_slope < 0.0 || begins_at_jump_) offer(k, last.time);
+  if (last.slope * curve.end_slope < 0.0 || begins_at_jump_)
+    offer(k, last.time, begin == from ? begin_time_ : fixed_);
+  if (begin == from) settle(k, last, slack);
   for (double point : points_) {
     if (!status_.ok()) return;
     const Sample next = sample(k, inside(point));
@@ -212,7 +170,10 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
                     curve.next < instants.size() && instants[curve.next] <= point + slack);
     // A step ends with the state before the jump of sampled controllers, which the next one begins
     // with.
-    if (ends_at_jump_ && point == end && end == to) offer(k, next.time);
+    if (ends_at_jump_ && point == end && end == to && next.time > last.time) {
+      offer(k, next.time, end_time_);
+      curve.end_value = next.value;
+    }
     reach(point, behind);
     if (is_break) break_time.reset();
     last = next;
@@ -227,8 +188,8 @@ void SignalWatch::look_for_jump(std::size_t k, const Sample& before, double behi
   if (!status_.ok()) return;
   const double time = std::min(before.time, behind - kRounding * system_.study().duration);
   if (!jumps(value(k, time), value(k, behind))) return;
-  if (time > layout_.entries()[k].instants.front()) offer(k, time);
-  if (!is_instant) offer(k, behind);
+  if (time > layout_.entries()[k].instants.front()) offer(k, time, fixed_);
+  if (!is_instant) offer(k, behind, fixed_);
 }
 
 /// Looks for an extremum between two points by the sign of the slope.
@@ -241,7 +202,7 @@ void SignalWatch::search(std::size_t k, const Sample& from, const Sample& to) {
       boost::math::tools::eps_tolerance<double>(kBits), iterations);
   if (!status_.ok()) return;
   const double time = 0.5 * (found.first + found.second);
-  offer(k, time);
+  offer(k, time, fixed_);
   if (has_band(system_.study().watched[k])) pass(k, sample(k, time));
 }
 
@@ -253,8 +214,12 @@ void SignalWatch::pass_gap(std::size_t k, const Sample& to) {
                smooth = 2.0 * std::abs(to.slope) * (to.time - curve.last.time) +
                         1e-12 * (std::abs(to.value) + std::abs(curve.last.value));
   if (change <= smooth) return pass(k, to);
-  curve.band.cross(to.time, Eigen::VectorXd::Zero(extremes_.gradients.rows()),
-                   curve.band.holds(to.value));
+  // A guard that depends on the design moves the jump.
+  if (begin_time_.size() > 0)
+    gradient_ = begin_time_;
+  else
+    gradient_.setZero(extremes_.gradients.rows());
+  curve.band.cross(to.time, gradient_, curve.band.holds(to.value));
   curve.last = to;
 }
 
@@ -311,10 +276,18 @@ void SignalWatch::reach_instant(std::size_t k, double time) {
   if (!status_.ok()) return;
   if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
   set(entry.at_instant(instant), time, number);
-  if (instant > 0 && number > extremes_.values[entry.largest(instant - 1)])
-    set(entry.largest(instant - 1), time, number);
-  if (instant > 0 && number < extremes_.values[entry.smallest(instant - 1)])
-    set(entry.smallest(instant - 1), time, number);
+  // A number that moves with the guard at this instant stays until the next step tells whether the
+  // signal turns there.
+  const auto exceeds = [&](int place, double by) {
+    const double slope = std::abs(slopes_[place]), apart = std::abs(time - extremes_.times[place]);
+    return by >
+           (slope > 0.0 && apart < kNear * system_.study().duration ? 2.0 * slope * apart : 0.0);
+  };
+  if (instant > 0) {
+    const int largest = entry.largest(instant - 1), smallest = entry.smallest(instant - 1);
+    if (exceeds(largest, number - extremes_.values[largest])) set(largest, time, number);
+    if (exceeds(smallest, extremes_.values[smallest] - number)) set(smallest, time, number);
+  }
   if (instant < entry.windows()) {
     set(entry.largest(instant), time, number);
     set(entry.smallest(instant), time, number);
@@ -327,8 +300,9 @@ void SignalWatch::reach_instant(std::size_t k, double time) {
   if (instant > 0 && instant == entry.windows() && entry.is_measured) finish(k, time);
 }
 
-/// Compares the value at an extremum with the extreme values of its window.
-void SignalWatch::offer(std::size_t k, double time) {
+/// Compares the value at an extremum with the extreme values of its window. @param moves tau' of
+/// the instant; empty: it is fixed.
+void SignalWatch::offer(std::size_t k, double time, const Eigen::VectorXd& moves) {
   const WatchLayout::Entry& entry = layout_.entries()[k];
   const int window = static_cast<int>(curves_[k].next) - 1;
   if (window < 0 || window >= entry.windows()) return;
@@ -337,14 +311,68 @@ void SignalWatch::offer(std::size_t k, double time) {
   const bool largest = number > extremes_.values[entry.largest(window)],
              smallest = number < extremes_.values[entry.smallest(window)];
   if (!largest && !smallest) return;
-  if (differentiate_) differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
-  set(largest ? entry.largest(window) : entry.smallest(window), time, number);
+  const double slope = differentiate(k, moves);
+  set(largest ? entry.largest(window) : entry.smallest(window), time, number, slope);
 }
 
-void SignalWatch::set(int place, double time, double number) {
+/// Sets gradient_ to the derivatives at state_, theory (21d). @returns the slope with which the
+/// value moves along with its instant; 0 if that is fixed.
+double SignalWatch::differentiate(std::size_t k, const Eigen::VectorXd& moves) {
+  if (!differentiate_) return 0.0;
+  differentiate_(k, state_, curves_[k].reads_rates, &gradient_);
+  if (moves.size() == 0) return 0.0;
+  if (Status status = solve_motion(integrator_, &state_, &rates_); !status.ok()) {
+    status_ = status;
+    return 0.0;
+  }
+  integrator_->equations().watched_gradient(k, state_, &sparse_);
+  const double slope = rate_along(sparse_, rates_, system_.layout());
+  gradient_ += slope * moves;
+  return slope;
+}
+
+void SignalWatch::set(int place, double time, double number, double slope) {
   extremes_.values[place] = number;
   extremes_.times[place] = time;
+  slopes_[place] = slope;
   if (differentiate_) extremes_.gradients.col(place) = gradient_;
+}
+
+/// Where a guard is zero at an instant between two windows: if the signal turns there, the extreme
+/// values of both move with the guard, else they are those at the instant. @param behind just
+/// behind it.
+void SignalWatch::settle(std::size_t k, const Sample& behind, double slack) {
+  const WatchLayout::Entry& entry = layout_.entries()[k];
+  const Curve& curve = curves_[k];
+  const int instant = static_cast<int>(curve.next) - 1;
+  if (begin_time_.size() == 0 || instant <= 0 || instant >= entry.windows() ||
+      std::abs(entry.instants[to_index(instant)] - time_) > slack || !status_.ok())
+    return;
+  const bool jumped = jumps(curve.end_value, behind.value);
+  const int at = entry.at_instant(instant);
+  for (const double sign : {1.0, -1.0}) {
+    const int before = sign > 0.0 ? entry.largest(instant - 1) : entry.smallest(instant - 1),
+              after = sign > 0.0 ? entry.largest(instant) : entry.smallest(instant);
+    const bool rises = sign * curve.end_slope >= 0.0, falls = sign * behind.slope <= 0.0,
+               higher = sign * (behind.value - curve.end_value) > 0.0,
+               turns_before = rises && (jumped ? !higher : falls),
+               turns_after = falls && (jumped ? higher : rises);
+    // Both sides of a kink, and the instant, have the same value.
+    if (slopes_[before] != 0.0 && turns_before && !jumped)
+      extremes_.values[before] = extremes_.values[at];
+    if (slopes_[before] != 0.0 && !turns_before) copy(at, before);
+    if (!turns_after || !go_to(k, behind.time)) continue;
+    const double slope = differentiate(k, begin_time_);
+    set(after, behind.time, jumped ? behind.value : extremes_.values[at], slope);
+  }
+}
+
+/// Gives a number the value and the derivatives of another one, which does not move.
+void SignalWatch::copy(int from, int to) {
+  extremes_.values[to] = extremes_.values[from];
+  extremes_.times[to] = extremes_.times[from];
+  slopes_[to] = 0.0;
+  if (differentiate_) extremes_.gradients.col(to) = extremes_.gradients.col(from);
 }
 
 Status SignalWatch::failed(std::size_t k, double time) const {

@@ -43,7 +43,9 @@ void set_measure(const WatchedSignal& watched, const WatchLayout::Entry& entry, 
 /// A signal is a function of the dense output, with accelerations and multipliers solved for where
 /// it depends on them. Its slope, which is exact, is computed at several points of each step; where
 /// it changes sign, a root finder gives the extremum to rounding. At a smooth extremum the
-/// derivative by a parameter equals the derivative at a fixed time, because the slope is zero.
+/// derivative by a parameter equals the derivative at a fixed time, because the slope is zero. At a
+/// kink or a jump where a guard is zero the instant moves, and the slope of its side counts,
+/// (21d').
 class SignalWatch {
  public:
   /// The derivatives of watched signal `k` by the tuned parameters at `state`, a point of the dense
@@ -59,13 +61,17 @@ class SignalWatch {
   /// Begins a run: to be called after integrator->start(). @param differentiate empty: without
   /// derivatives.
   Status start(Integrator* integrator, Differentiate differentiate);
-  /// Searches the last step of the integrator.
-  Status look();
+  /// Searches the last step of the integrator. @param end_time tau' of (18g), the derivatives of
+  /// the time at which a guard has ended that step; empty if none did.
+  Status look(const Eigen::VectorXd& end_time = {});
   /// Takes the end of the run for all instants that it has not reached; look() does so if the run
   /// has ended.
   Status end();
   /// The numbers so far. At the end of the study all of them are set.
   const Extremes& extremes() const { return extremes_; }
+  /// The slope of each number whose instant moves with a guard [unit of the signal per s]; 0 of all
+  /// others.
+  const Eigen::VectorXd& slopes() const { return slopes_; }
 
  private:
   struct Sample {
@@ -77,8 +83,9 @@ class SignalWatch {
     std::size_t next = 0;      ///< the next instant
     double end_slope =
         0.0;  ///< slope at the end of the previous step, if that was inside the interval; else 0
-    BandStays band;  ///< only of signals with a band, as `last`
-    Sample last;     ///< the last point that was compared with the band
+    double end_value = 0.0;  ///< just before the last guard that ended a step
+    BandStays band;          ///< only of signals with a band, as `last`
+    Sample last;             ///< the last point that was compared with the band
   };
 
   bool go_to(std::size_t k, double time);
@@ -91,8 +98,11 @@ class SignalWatch {
   void finish(std::size_t k, double time);
   void reach_instant(std::size_t k, double time);
   void look_for_jump(std::size_t k, const Sample& before, double behind, bool is_instant);
-  void offer(std::size_t k, double time);
-  void set(int place, double time, double number);
+  void offer(std::size_t k, double time, const Eigen::VectorXd& moves);
+  void settle(std::size_t k, const Sample& behind, double slack);
+  double differentiate(std::size_t k, const Eigen::VectorXd& moves);
+  void set(int place, double time, double number, double slope = 0.0);
+  void copy(int from, int to);
   Status failed(std::size_t k, double time) const;
 
   const CompiledSystem& system_;
@@ -108,7 +118,9 @@ class SignalWatch {
   double time_ = 0.0;  ///< end of the previous step [s]
   State<double> state_, rates_;
   SparseGradient<double> sparse_;
-  Eigen::VectorXd gradient_;
+  Eigen::VectorXd gradient_, slopes_;
+  Eigen::VectorXd begin_time_, end_time_;  ///< tau' of both ends of the last step; or empty
+  const Eigen::VectorXd fixed_;            ///< empty
   std::vector<double> points_;
   Status status_;
 };

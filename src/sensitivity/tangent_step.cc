@@ -248,7 +248,7 @@ double TangentStep<N>::error(const RosenbrockStep<double>& step, double toleranc
     change += tableau_->weights[j] * stages_[j].vector(at_.psi());
   const Eigen::Map<const Eigen::Array<double, N, 1>> by(reinterpret_cast<const double*>(&change));
   return scale_.error(at_,
-                      {stage_y_, pair ? estimate_ : stages_[count() - 1],
+                      {step.unprojected(), stage_y_, pair ? estimate_ : stages_[count() - 1],
                        y_.col(at_.psi()).array() + by, step.psi()},
                       pair ? tolerance / kPairCaution : tolerance);
 }

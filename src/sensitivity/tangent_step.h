@@ -107,6 +107,12 @@ class TangentStep {
   /// last step. @param rate s_t + s_x f of the guard.
   Eigen::Matrix<double, N, 1> guard_time(int guard, double rate, const State<double>& end);
 
+  /// Takes back what both of these did. @param y directions() before. @param mode before.
+  void go_back(const Directions<N>& y, const std::vector<bool>& mode) {
+    y_ = y;
+    equations_.equations().hold(mode);
+  }
+
   /// What both of these do for the last jump of an integrator.
   void jump(RosenbrockIntegrator* integrator);
 

@@ -37,6 +37,29 @@ double switched(double ts) {
   return ts * ts / 2.0 + ts * (2.0 - ts) - (2.0 - ts) * (2.0 - ts) / 2.0;
 }
 
+/// A pulse of 4 N from `s` on, `w` s long, whose end is asked for only behind its begin, and a
+/// force that begins to grow at `tr` = `s`; x(2) = 4 w (2 - s - w/2) - (2 - tr)^3/6.
+SwitchCase nested(bool pulse_first) {
+  const double x = 0.4 * 1.45 - 0.5625, factor = 2.0 * (x + 1.0);
+  return {pulse_first ? "a pulse and a ramp that begin together" : "a ramp and a pulse",
+          pulse_first ? R"(
+loads:
+  - {joint: slide, effort: "${t < s ? 0 : (t < s + w ? 4 : 0)}"}
+  - {joint: slide, effort: "${-max(0, t - tr)}"}
+parameters: {s: {initial: 0.5, lower: 0, upper: 1}, w: {initial: 0.1, lower: 0, upper: 1},
+  tr: {initial: 0.5, lower: 0, upper: 1}}
+objective: {terminal: [{signal: slide/position, reference: -1}]})"
+                      : R"(
+loads:
+  - {joint: slide, effort: "${-max(0, t - tr)}"}
+  - {joint: slide, effort: "${t < s ? 0 : (t < s + w ? 4 : 0)}"}
+parameters: {s: {initial: 0.5, lower: 0, upper: 1}, w: {initial: 0.1, lower: 0, upper: 1},
+  tr: {initial: 0.5, lower: 0, upper: 1}}
+objective: {terminal: [{signal: slide/position, reference: -1}]})",
+          (x + 1.0) * (x + 1.0),
+          {-0.4 * factor, 5.6 * factor, 1.125 * factor}};
+}
+
 std::vector<SwitchCase> switch_cases() {
   const double x = switched(0.8), beyond = 0.7 + 1.3 - 0.25 * 1.69;
   // Two halves of an oscillation with w = 2.2 rad/s about x = F/k and -F/k.
@@ -145,6 +168,18 @@ objective: {terminal: [{signal: slide/velocity}]})",
        // v = sum over k of (2 - k/2 period) for k = 1, 2, 3
        9.0,
        {2.0 * 3.0 * -3.0, 2.0 * 9.0}},
+      nested(true),
+      nested(false),
+      // v' = r' - v, r' = r up to 1 s, then 0.5 - r: the acceleration jumps with the function of
+      // time, and with it the guard of max().
+      {"a guard that jumps at a way-point",
+       R"(
+controllers: {c: {type: pid, input: slide/position, output: slide, gains: {p: 0.0, d: 1.0},
+  setpoint: {type: waypoints, times: [0, 1, 2], positions: [0, "${r}", 0.5], interpolation: linear}}}
+parameters: {r: {initial: 1, lower: 0.5, upper: 2}}
+objective: {integral: [{signal: "${max(slide/acceleration, 0)}"}]})",
+       0.5 * (1.0 - std::exp(-2.0)),
+       {1.0 - std::exp(-2.0)}},
   };
 }
 

@@ -7,6 +7,21 @@
 namespace codesign {
 namespace {
 
+GradientCase scaled_slide(const std::string& more) {
+  return from_texts(
+      "slide",
+      robot("<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
+            "iyz='0' izz='1'/></inertial></link><joint name='slide' type='prismatic'><parent "
+            "link='ground'/><child link='mass'/><axis xyz='1 0 0'/><limit lower='-9' upper='9' "
+            "effort='0' velocity='0'/></joint>"),
+      std::string(
+          "duration: 1.0\ninitial_state: {slide: {position: \"${a}\", velocity: \"${b}\"}}\n"
+          "parameters: {a: {initial: 1, lower: 0, upper: 10}, b: {initial: 0, lower: -50, upper: "
+          "50}}\nobjective: {integral: [{signal: slide/position}]}\nsolver: {coordinates: "
+          "joint}\n") +
+          more);
+}
+
 /// One joint, so that x, v and psi' have one entry each besides z; parameters with values 1 and 0.
 class SensitivityScaleTest : public ::testing::Test {
  protected:
@@ -26,18 +41,10 @@ class SensitivityScaleTest : public ::testing::Test {
     e.col(at.x())[lane] = 1e-6;
     Eigen::Array4d psi_end = Eigen::Array4d::Zero();
     psi_end[lane] = psi;
-    return scale.error(at, {y, e, psi_end, objective}, 1e-4);
+    return scale.error(at, {state, y, e, psi_end, objective}, 1e-4);
   }
 
-  const GradientCase test = from_texts(
-      "slide",
-      robot("<link name='mass'><inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' "
-            "iyz='0' izz='1'/></inertial></link><joint name='slide' type='prismatic'><parent "
-            "link='ground'/><child link='mass'/><axis xyz='1 0 0'/><limit lower='-9' upper='9' "
-            "effort='0' velocity='0'/></joint>"),
-      "duration: 1.0\ninitial_state: {slide: {position: \"${a}\", velocity: \"${b}\"}}\n"
-      "parameters: {a: {initial: 1, lower: 0, upper: 10}, b: {initial: 0, lower: -50, upper: "
-      "50}}\nobjective: {integral: [{signal: slide/position}]}\nsolver: {coordinates: joint}\n");
+  const GradientCase test = scaled_slide("");
   const std::shared_ptr<const CompiledSystem> system = test.compile("auto", "direct");
   const IncrementLayout at{system->layout()};
   std::vector<Lanes<4>> parameters;
@@ -77,10 +84,37 @@ TEST_F(SensitivityScaleTest, JudgesTheDerivativeOfTheIntegral) {
   y.col(at.x()).setOnes();
   e.col(at.psi())[0] = 1e-6;
   const auto judge = [&](double psi, double objective) {
-    return scale.error(at, {y, e, Eigen::Array4d::Constant(psi), objective}, 1e-4);
+    return scale.error(at, {state, y, e, Eigen::Array4d::Constant(psi), objective}, 1e-4);
   };
   EXPECT_NEAR(judge(2.0, 0.0), 5e-3, 1e-9);
   EXPECT_NEAR(judge(0.0, 500.0), 1e-6 / 0.05 / 1e-4, 1e-6);
+}
+
+// A contact turns a velocity of 2 m/s round within 2 ms of a second: the sensitivity of 500 in
+// between vanishes with it. Without the contact it would be the size of later errors.
+TEST_F(SensitivityScaleTest, LeavesOutWhatAShortContactRaises) {
+  const auto with_stops = scaled_slide("limits: {position: true}\n").compile("auto", "direct");
+  Directions<4> y(at.size()), e(at.size());
+  e.col(at.v())[0] = 1e-6;
+  const auto reach = [&](double t, double v, double a, double sensitivity) {
+    state.t = t;
+    state.v[0] = v;
+    state.z[0] = a;
+    y.col(at.v())[0] = sensitivity;
+    scale.measure(at, state, y);
+    return scale.error(at, {state, y, e, Eigen::Array4d::Zero(), 0.0}, 1e-4);
+  };
+  scale.start(*with_stops, parameters);
+  EXPECT_NEAR(reach(0.0, 2.0, 1.0, 1.0), 1e-2, 1e-9);
+  EXPECT_NEAR(reach(0.5, 2.0, 1.0, 1.0), 1e-2, 1e-9);
+  // The mean is (0.5 + 0.5 * 501 * 1e-3) / 0.501 = 1.498.
+  EXPECT_NEAR(reach(0.501, 0.0, -2e3, 500.0), 1e-2 / ((0.5 + 0.2505) / 0.501), 1e-5);
+  EXPECT_NEAR(reach(0.9, -2.0, 1.0, 20.0), 5e-4, 1e-9) << "what stays counts";
+  // Without switches there is no contact.
+  scale.start(*system, parameters);
+  reach(0.0, 2.0, 1.0, 1.0);
+  reach(0.5, 2.0, 1.0, 1.0);
+  EXPECT_NEAR(reach(0.501, 0.0, -2e3, 500.0), 2e-5, 1e-9);
 }
 
 // Bristles are micrometres beside a joint that turns: an error of the size of their own
@@ -101,12 +135,14 @@ TEST(SensitivityScale, JudgesExtraStatesApartFromPositions) {
   std::vector<Lanes<4>> parameters(1, Lanes<4>(1.0));
   parameters[0].v[0] = 1.0;
   SensitivityScale<4> scale;
+  State<double> state;
+  state.resize(system->layout());
   scale.start(*system, parameters);
   Directions<4> y(at.size()), e(at.size());
   y.col(at.x())[0] = 100.0;
   y.col(at.s())[0] = 1e-4;
   e.col(at.s())[0] = 1e-7;
-  EXPECT_NEAR(scale.error(at, {y, e, Eigen::Array4d::Zero(), 0.0}, 1e-3), 1.0, 1e-9);
+  EXPECT_NEAR(scale.error(at, {state, y, e, Eigen::Array4d::Zero(), 0.0}, 1e-3), 1.0, 1e-9);
 }
 
 TEST(SensitivityTolerance, FollowsTheRelativeOneToFiveDigits) {

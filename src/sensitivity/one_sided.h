@@ -1,0 +1,48 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "mechanism_codesign/warning.h"
+
+namespace codesign {
+
+class CompiledSystem;
+class RosenbrockIntegrator;
+struct SwitchOrigin;
+
+/// Runs that start or end exactly on a guard, doc/theory.md (18h): designs on one side of this one
+/// have an event that those on the other side do not have, so that derivatives by what moves the
+/// guard hold on one side only. Warnings `one_sided_gradient` say so.
+class OneSidedGradient {
+ public:
+  /// @param system must outlive it.
+  explicit OneSidedGradient(const CompiledSystem& system) : system_(&system) {}
+
+  /// The derivatives of a guard by the tuned parameters at the start of a run.
+  using GuardDerivatives = std::function<void(int guard, Eigen::VectorXd* derivatives)>;
+
+  /// Forgets all warnings.
+  void start() { warnings_.clear(); }
+  void look_at_start(RosenbrockIntegrator* integrator, const GuardDerivatives& derivatives);
+  /// Compares the gradient of a run that ends on a guard with that of runs which end behind it.
+  /// @param origin of the switch. @param moves whether the motion jumps there, and watched signals
+  /// with it.
+  void compare(const SwitchOrigin* origin, const Eigen::VectorXd& before,
+               const Eigen::VectorXd& behind, bool moves);
+  const Warnings& warnings() const { return warnings_; }
+
+ private:
+  /// The parameter over whose range a derivative changes most.
+  Eigen::Index largest(const Eigen::VectorXd& derivatives) const;
+  double range(Eigen::Index tuned) const;
+  const std::string& name(Eigen::Index tuned) const;
+  void add(const SwitchOrigin* origin, const std::string& text);
+
+  const CompiledSystem* system_;
+  Warnings warnings_;
+};
+
+}  // namespace codesign
