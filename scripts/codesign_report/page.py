@@ -62,6 +62,7 @@ def commands(job):
     rows = []
     if files.get("model") and not job.bag:
         overlays = "".join(f" --overlay {shlex.quote(path)}" for path in files.get("overlays", []))
+        overlays += " --base floating" if files.get("base") == "floating" else ""
         inputs = f'{shlex.quote(files["model"])} {shlex.quote(files["study"])}{overlays} --result {shlex.quote(job.path("initial.json"))}'
         rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
     rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),
