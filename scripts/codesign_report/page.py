@@ -72,6 +72,7 @@ def commands(job):
     rows = []
     if files.get("model") and not job.bag:
         overlays = "".join(f" --overlay {shell_word(path)}" for path in files.get("overlays", []))
+        overlays += " --base floating" if files.get("base") == "floating" else ""
         inputs = f'{shell_word(files["model"])} {shell_word(files["study"])}{overlays} --result {shell_word(job.path("initial.json"))}'
         rows.append(("the same job from its files", f"codesign optimize {inputs} --output again"))
     rows += [("the same job from this folder alone", f"{here} && codesign optimize initial.urdf job_study.yaml --result initial.json --output again"),

@@ -81,6 +81,13 @@ void set_method(const std::string& text, Arguments* arguments) {
     throw UsageError("--verify: \"" + text + "\" is neither complex_step nor ridders");
 }
 
+void set_base(const std::string& text, Arguments* arguments) {
+  if (text != "floating")
+    throw UsageError("--base: \"" + text +
+                     "\" is not floating; without the option the base stands as the study says");
+  arguments->floating_base = true;
+}
+
 void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   if (!arguments->output.empty() && arguments->output != path)
     throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path +
@@ -101,6 +108,7 @@ const std::map<std::string, Option>& options() {
        {Value::kRequired,
         {},
         [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
+      {"--base", {Value::kRequired, {}, set_base}},
       {"--set", {Value::kRequired, kOfDesigns, add_setting}},
       {"--result",
        {Value::kRequired, kOfDesigns,
@@ -287,6 +295,7 @@ constexpr const char* kOtherCommands =
 
 constexpr const char* kSharedOptions =
     R"(  --overlay FILE           annotations to merge into the model; may be repeated
+  --base floating          the root link moves freely in space: a drone, a walking robot
   --result FILE            take the design of a result.json; of another study what fits
   --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
   --json                   one JSON object on standard output, with this program's version

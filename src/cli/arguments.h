@@ -25,6 +25,7 @@ struct Arguments {
   std::string model;    ///< path; new: of the folder to be made, empty: the machines are listed
   std::string study;    ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
+  bool floating_base = false;         ///< --base floating
   std::string result;          ///< path of the result.json with the design to use; empty: none
   ParameterSettings settings;  ///< --set NAME=VALUE, in order; they replace the values of `result`
   bool json = false;

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cli/inputs.h"
 
+#include <utility>
+
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "jobs/job_files.h"
@@ -8,6 +10,7 @@
 #include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
+#include "reading/urdf/floating_base.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign::cli {
@@ -26,6 +29,10 @@ Problem load(const Arguments& arguments, const Console* console) {
   Inputs inputs;
   inputs.urdf = read_source(arguments.model);
   for (const std::string& path : arguments.overlays) inputs.overlays.push_back(read_source(path));
+  if (arguments.floating_base) {
+    const RobotDescription robot = read_urdf(inputs.urdf, inputs.overlays);
+    inputs.overlays = with_floating_base(robot, std::move(inputs.overlays));
+  }
   if (!arguments.study.empty()) inputs.study = read_source(arguments.study);
   if (!arguments.result.empty()) inputs.design = read_design(read_source(arguments.result));
   inputs.settings = arguments.settings;

@@ -40,6 +40,8 @@ struct Study : MotionStudy {
   EnsembleDescription ensemble;
   std::optional<IdentificationDescription> identification;
   std::optional<ExcitationDescription> excitation;
+  /// Whether the study says how the model's base stands, `base`.
+  bool base_is_given = false;
   PostureGrid grid;                     ///< `efforts.grid`; empty without it
   std::vector<HardwareGains> hardware;  ///< in the order written
 };

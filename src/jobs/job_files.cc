@@ -14,6 +14,7 @@
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
+#include "reading/urdf/floating_base.h"
 
 namespace codesign {
 namespace {
@@ -114,7 +115,8 @@ Problem load(const Inputs& inputs, const TrajectoryLoader& loader) {
 
 std::vector<std::string> input_files(const Problem& problem) {
   std::vector<std::string> paths = {problem.urdf().name, problem.study_text().name};
-  for (const SourceText& overlay : problem.overlays()) paths.push_back(overlay.name);
+  for (const SourceText& overlay : problem.overlays())
+    if (overlay.name != kFloatingBase) paths.push_back(overlay.name);
   for (const LoadedFile& file : contents_of(problem).files) paths.push_back(file.source.name);
   const fs::path folder = fs::absolute(problem.study_text().name).parent_path();
   for (const LoadedTrajectory& trajectory : contents_of(problem).trajectories)

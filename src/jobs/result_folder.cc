@@ -14,6 +14,7 @@
 #include "jobs/robot_gains.h"
 #include "jobs/run_recorder.h"
 #include "problem/load_problem.h"
+#include "reading/urdf/floating_base.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
 
@@ -144,7 +145,10 @@ std::vector<Failure> ResultFolder::write_runs(const OptimizationResult& result,
                       {"study", problem_.study_text().name},
                       {"overlays", Json::array()}};
   for (const SourceText& overlay : problem_.overlays())
-    details["files"]["overlays"].push_back(overlay.name);
+    if (overlay.name == kFloatingBase)
+      details["files"]["base"] = "floating";
+    else
+      details["files"]["overlays"].push_back(overlay.name);
   details["duration"] = study_of(problem_).duration;
   details["parameters"] = parameter_table(problem_, result);
   const auto record = [&](const char* side, const Eigen::VectorXd& rho) {

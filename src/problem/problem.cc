@@ -15,6 +15,7 @@
 #include "problem/problem_warnings.h"
 #include "problem/variants.h"
 #include "reading/study/study_reader.h"
+#include "reading/urdf/floating_base.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -130,6 +131,7 @@ Problem compile(const RobotDescription& robot, Study study, const SavedDesign& d
   require_compatible(study);
   append(unused_parameters(study), &contents.warnings);
   append(differing_nominals(study), &contents.warnings);
+  if (!contents.study_text.text.empty()) append(fixed_base(robot, study), &contents.warnings);
   append(waypoint_overshoots(study), &contents.warnings);
   if (!study.tuned.empty()) append(unsatisfiable_constraints(study), &contents.warnings);
   for (RunDescription& run : study.ensemble.runs)
@@ -195,7 +197,10 @@ Problem load_problem_at(const SavedDesign& design, const SourceText& urdf,
                         const ParameterSettings& settings, const TrajectoryLoader& loader,
                         const FileLoader& files, const Laws& laws) {
   const CpuTimer timer;
-  const RobotDescription robot = read_urdf(urdf, overlays, laws);
+  RobotDescription robot = read_urdf(urdf, overlays, laws);
+  std::vector<SourceText> merged = overlays;
+  if (has_floating_base(study)) merged = with_floating_base(robot, std::move(merged));
+  if (merged.size() > overlays.size()) robot = read_urdf(urdf, merged, laws);
   std::vector<LoadedTrajectory> loaded;
   std::vector<LoadedFile> loaded_files;
   const FileLoader read_file = files ? files : files_beside(study.name);
@@ -203,7 +208,7 @@ Problem load_problem_at(const SavedDesign& design, const SourceText& urdf,
       read_study(study, robot, keeping(loader, &loaded), keeping(read_file, &loaded_files));
   return compile(robot, std::move(read), design, settings,
                  {urdf,
-                  overlays,
+                  merged,
                   study,
                   nullptr,
                   {},

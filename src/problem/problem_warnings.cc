@@ -8,6 +8,7 @@
 #include "control/reference.h"
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
+#include "mechanism/fixed_base.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -95,6 +96,21 @@ Warnings differing_nominals(const Study& study) {
                                    "samples lie around the identified values, but nominal runs use "
                                    "other values; give identified_overlay.urdf as an overlay",
                                    values, identified})};
+}
+
+Warnings fixed_base(const RobotDescription& robot, const Study& study) {
+  if (study.base_is_given || is_on_ground(robot)) return {};
+  const double mass = mass_of_base(robot);
+  if (!(mass > 0.0)) return {};
+  const LinkDescription& root = robot.links[to_index(robot.root)];
+  return {
+      warn("fixed_base",
+           {root.where, "<link name=\"" + root.name + "\">",
+            "the root link is the ground, so that its mass, with what is fixed to it, does "
+            "nothing; if the base moves (a drone, a walking robot), write base: floating in the "
+            "study, or --base floating on the command line; if it stands, write base: fixed to "
+            "silence this",
+            readable(mass, 6) + " kg", "base: floating or base: fixed"})};
 }
 
 Warnings unused_parameters(const Study& study) {

@@ -138,6 +138,13 @@ TEST(Usage, FitsATerminalAndEndsItsLastLine) {
   EXPECT_EQ(usage().back(), '\n');
 }
 
+TEST(Arguments, TheBaseMayFloat) {
+  EXPECT_FALSE(parse_arguments({"check", "m.urdf"}).floating_base);
+  EXPECT_TRUE(parse_arguments({"check", "m.urdf", "--base", "floating"}).floating_base);
+  EXPECT_TRUE(parse_arguments({"simulate", "m.urdf", "s.yaml", "--base=floating"}).floating_base);
+  EXPECT_THROW(parse_arguments({"check", "m.urdf", "--base", "flying"}), UsageError);
+}
+
 }  // namespace
 
 }  // namespace codesign::cli

@@ -111,6 +111,28 @@ TEST(Inputs, SignalsAreThoseAskedForOrTheDefaults) {
   EXPECT_THROW(select_signals(arguments, problem), InputError);
 }
 
-}  // namespace
+TEST(Inputs, ABaseThatFloatsOnTheCommandLineIsThatOfTheStudy) {
+  const ScratchFolder folder;
+  std::ofstream(folder.path("drone.urdf"))
+      << R"(<robot name="drone"><link name="base"><inertial><mass value="2"/><inertia ixx="0.1"
+            ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.2"/></inertial></link></robot>)";
+  std::ofstream(folder.path("fall.yaml")) << "duration: 1
+      base : floating initial_state : {
+  floating_base : {
+  linear_velocity: [0, 0, "
+         "1]}}
+";
+  Arguments arguments;
+  arguments.model = folder.path("drone.urdf");
+  EXPECT_THROW(load(arguments), InputError);
+  arguments.floating_base = true;
+  EXPECT_EQ(robot_of(load(arguments)).joints.size(), 1U);
+  arguments.study = folder.path("fall.yaml");
+  EXPECT_EQ(load(arguments).overlays().size(), 1U) << "named by both, once";
+  arguments.floating_base = false;
+  EXPECT_EQ(load(arguments).overlays().size(), 1U);
+  }
+
+  }  // namespace
 
 }  // namespace codesign::cli

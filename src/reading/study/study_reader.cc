@@ -105,7 +105,14 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   return study;
 }
 
+bool says_floating(const YamlValue& root) {
+  const auto base = root.is_map() ? root.find("base") : std::nullopt;
+  return base && base->choice("base", {"fixed", "floating"}) == "floating";
+}
+
 }  // namespace
+
+bool has_floating_base(const SourceText& yaml) { return says_floating(YamlValue::parse(yaml)); }
 
 Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
@@ -115,7 +122,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
       {"duration",   "until",     "gravity",   "initial_state", "controllers", "loads",  "motion",
        "parameters", "objective", "path",      "final",         "constraints", "limits", "solver",
        "optimizer",  "runs",      "uncertain", "robust",        "multistart",  "engine", "identify",
-       "excite",     "hardware",  "positions", "hold",          "efforts"});
+       "excite",     "hardware",  "positions", "hold",          "efforts",     "base"});
   require_purpose_of_excite(root);
   refuse_motion_of_excitation(root);
   const TrajectoryLoader trajectories = trajectories_of(loader, files);
@@ -123,6 +130,7 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
     return read_single_run(study_value, yaml.name, robot, trajectories);
   };
   Study study = read_run(root);
+  study.base_is_given = root.find("base").has_value();
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
   if (const auto identify = root.find("identify"))
     study.identification = read_identification(*identify, robot, study);

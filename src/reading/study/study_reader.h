@@ -16,4 +16,8 @@ namespace codesign {
 Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader = {}, const FileLoader& files = {});
 
+/// Whether a study says `base: floating`, which changes the model that it is read for. @throws
+/// InputError for another value than fixed and floating
+bool has_floating_base(const SourceText& yaml);
+
 }  // namespace codesign
