@@ -313,11 +313,11 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
 
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
-    throw InputError({robot_.links[to_index(robot_.root)].where,
-                      "<robot name=\"" + robot_.name + "\">",
-                      "nothing moves: no link with an <inertial> hangs on a movable joint", "",
-                      "at least one link with <inertial> below a joint that is not fixed; <inertial "
-                      "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes"});
+    throw InputError(
+        {robot_.links[to_index(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+         "nothing moves: no link with an <inertial> hangs on a movable joint", "",
+         "at least one link with <inertial> below a joint that is not fixed; <inertial "
+         "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes"});
 }
 
 }  // namespace codesign

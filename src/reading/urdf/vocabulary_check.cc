@@ -62,8 +62,7 @@ class Check {
     Warnings all;
     for (const Noted& noted : noted_) {
       all.push_back(noted.first);
-      if (noted.further > 0)
-        all.back().message += further_places(noted.further, noted.last_line);
+      if (noted.further > 0) all.back().message += further_places(noted.further, noted.last_line);
     }
     return all;
   }

@@ -39,9 +39,8 @@ std::string further_places(int count, int last_line) {
 void count_repetitions(Warnings* warnings) {
   std::vector<Counted> kept;
   for (Warning& warning : *warnings) {
-    const auto found = std::find_if(kept.begin(), kept.end(), [&](const Counted& of) {
-      return is_repetition(warning, of);
-    });
+    const auto found = std::find_if(kept.begin(), kept.end(),
+                                    [&](const Counted& of) { return is_repetition(warning, of); });
     if (found == kept.end()) {
       kept.push_back({std::move(warning)});
       continue;

@@ -40,8 +40,8 @@ TEST(WarningCounts, OfAVendorsFile) {
     links += "<link name=\"" + name +
              "\"><inertial><mass value=\"1\"/><inertia ixx=\"9\" ixy=\"0\" ixz=\"0\" iyy=\"1\" "
              "iyz=\"0\" izz=\"1\"/></inertial></link>\n";
-    joints += "<joint name=\"j" + std::to_string(k) +
-              "\" type=\"continuous\"><parent link=\"" + parent + "\"/><child link=\"" + name +
+    joints += "<joint name=\"j" + std::to_string(k) + "\" type=\"continuous\"><parent link=\"" +
+              parent + "\"/><child link=\"" + name +
               "\"/><axis xyz=\"0 0 1\"/><limit lower=\"-1\" upper=\"1\" effort=\"1\" "
               "velocity=\"1\"/></joint>\n";
   }
