@@ -58,7 +58,8 @@ struct SampledPidNumbers {
 };
 
 /// One sample of a PID, theory (51), in the order of control_toolbox's Pid::computeCommand():
-/// updates the memory and returns the output before its limit. At the first sample there is no rate.
+/// updates the memory and returns the output before its limit. At the first sample there is no
+/// rate.
 /// @param rated what the derivative acts on: the error, or minus the measured input.
 template <class T>
 T sample_pid(const SampledPidNumbers<T>& numbers, const T& error, const T& rated, bool is_first,

@@ -14,7 +14,7 @@ struct ControlRealization {
       i_clamp;              ///< kPid: largest magnitude of the integral term [unit of the output]
   bool antiwindup = false;  ///< kPid: the integral itself stays within i_clamp, not its term alone
   std::optional<Quantity>
-      derivative_filter;  ///< kPid: time constant of the low-pass filter on the error's rate [s]
+      derivative_filter;     ///< kPid: time constant of the low-pass filter on the error's rate [s]
   bool rates_input = false;  ///< kPid: d acts on the rate of minus the input, not on that of the
                              ///< error
   std::optional<Quantity> output_limit;   ///< largest magnitude of the output [unit of the output]

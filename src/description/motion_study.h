@@ -10,7 +10,6 @@
 
 #include "description/control_realization.h"
 #include "description/expression.h"
-#include "description/parameter_switches.h"
 #include "description/reference.h"
 #include "description/signal.h"
 #include "description/solver_options.h"
@@ -19,6 +18,8 @@
 #include "mechanism_codesign/parameter.h"
 
 namespace codesign {
+
+struct ParameterSwitch;
 
 /// The initial state of one joint; the assembly finds absent values, theory (19).
 struct InitialJointState {
@@ -153,7 +154,7 @@ struct MotionStudy {
   /// constraints does not count: a constraint alone has no effect on the motion.
   std::set<int> used_parameters;
   std::vector<ParameterSwitch> switches;  ///< of its numbers and those of the model
-  std::vector<int> tuned;               ///< indices of the tuned parameters; p of them
+  std::vector<int> tuned;                 ///< indices of the tuned parameters; p of them
   std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g, or of the sum over postures;
                                         ///< theory (21), (21f)
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)

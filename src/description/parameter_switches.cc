@@ -109,8 +109,7 @@ class Walk {
 
   void note(int at, const ExpressionStep& step, const Reads& reads) {
     if (reads.reads_signal) {
-      if (at_instant_ && is_staircase(step))
-        switches_.push_back({text_of(steps_, at, text_), {}});
+      if (at_instant_ && is_staircase(step)) switches_.push_back({text_of(steps_, at, text_), {}});
       return;
     }
     if (reads.parameters.empty() || (reads.reads_time && !at_instant_)) return;
@@ -140,8 +139,9 @@ bool has_jump(const std::function<double(double)>& function, double from, double
       largest = std::max(largest, std::abs(values[to_index(k)] - values[to_index(k - 1)]));
   }
   for (int k = 0; k < kJumpIntervals; ++k) {
-    double left = from + (to - from) * k / kJumpIntervals, right = left + (to - from) / kJumpIntervals,
-           at_left = values[to_index(k)], at_right = values[to_index(k + 1)];
+    double left = from + (to - from) * k / kJumpIntervals,
+           right = left + (to - from) / kJumpIntervals, at_left = values[to_index(k)],
+           at_right = values[to_index(k + 1)];
     for (int halving = 0; halving < kMostHalvings; ++halving) {
       if (!(std::abs(at_right - at_left) > kLeast * largest)) break;
       const double middle = 0.5 * (left + right), at_middle = function(middle);

@@ -34,9 +34,9 @@ struct ExpressionVariable {
 /// read the time, too, and floor, ceil and sign of signals: of an expression that is read at single
 /// instants.
 /// @param variable index of a variable -> what it is. @param text of the expression.
-std::vector<ParameterSwitch> find_switches(
-    const ExpressionSteps& steps, const std::string& text,
-    const std::function<ExpressionVariable(int)>& variable, bool at_instant = false);
+std::vector<ParameterSwitch> find_switches(const ExpressionSteps& steps, const std::string& text,
+                                           const std::function<ExpressionVariable(int)>& variable,
+                                           bool at_instant = false);
 
 /// A tuned parameter by which the objective may jump.
 struct ParameterJump {

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "description/robot.h"
 
+#include "description/parameter_switches.h"
+
 namespace codesign {
 
 const Laws& standard_laws() {

@@ -9,16 +9,17 @@
 #include <vector>
 
 #include "description/expression.h"
-#include "description/parameter_switches.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
-#include "math/mesh_moments.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/parameter.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
+
+struct MeshMoments;
+struct ParameterSwitch;
 
 /// The tables of laws whose names a model and its study may use. A program adds a row of its own to
 /// a copy of standard_laws() and reads its models with it; the row must outlive everything that is

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "description/parameter_switches.h"
+
 namespace codesign {
 
 MotionStudy::MotionStudy() = default;

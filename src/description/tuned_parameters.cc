@@ -11,8 +11,7 @@
 namespace codesign {
 namespace {
 
-constexpr const char* kFormOfConstraint =
-    "<expression> >= <expression>, or with <= or ==";
+constexpr const char* kFormOfConstraint = "<expression> >= <expression>, or with <= or ==";
 
 /// Positions of the `>=`, `<=` and `==` outside parentheses. Those inside belong to conditional
 /// expressions.

@@ -54,8 +54,8 @@ T rated_error_rate(const StateView<T>& view, int controller) {
 template <class T>
 T filtered_error_rate(const StateView<T>& view, int controller) {
   const T per_tau = T(1.0) / view.controller_numbers(controller).derivative_filter;
-  return per_tau * (rated_error(view, controller) -
-                    view.state->s[view.controller(controller).states.filter]);
+  return per_tau *
+         (rated_error(view, controller) - view.state->s[view.controller(controller).states.filter]);
 }
 
 /// Gains, error, integral and rate of (C3), (C5), (C6). i_clamp saturates k_i s if it bounds this

@@ -39,8 +39,7 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
                                      realization.i_clamp ? &k.i_clamp : nullptr,
                                      realization.antiwindup};
   const T error = measured_error(view, controller);
-  const T rated =
-      realization.rates_input ? T(error - k.setpoint.at(view.state->t).value) : error;
+  const T rated = realization.rates_input ? T(error - k.setpoint.at(view.state->t).value) : error;
   const T output = sample_pid(numbers, error, rated, is_first, &memory);
   write(resolved.state, memory.integral);
   write(resolved.states.last, memory.last_error);

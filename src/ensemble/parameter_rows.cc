@@ -57,8 +57,8 @@ Eigen::VectorXd ParameterRows::margins(const Eigen::VectorXd& rho) const {
                                                       std::numeric_limits<double>::infinity());
   for (const Row& row : rows_) {
     double& smallest = margins[to_signed(row.constraint)];
-    const double one = margin_left(study_.constraints[row.constraint],
-                                   scenarios_[row.scenario].parameters(rho));
+    const double one =
+        margin_left(study_.constraints[row.constraint], scenarios_[row.scenario].parameters(rho));
     if (std::isnan(one) || one < smallest) smallest = one;
   }
   return margins;

@@ -27,8 +27,8 @@ class ParameterRows {
   /// of an equality not zero; NaN where it has no real value.
   /// @param by_rho if not null, its derivatives by the tuned parameters.
   double margin(const Row& row, const Eigen::VectorXd& rho, Eigen::VectorXd* by_rho) const;
-  /// The least margin_left() of each constraint over its rows, NaN if the margin of a row is NaN; order
-  /// of Study::constraints.
+  /// The least margin_left() of each constraint over its rows, NaN if the margin of a row is NaN;
+  /// order of Study::constraints.
   Eigen::VectorXd margins(const Eigen::VectorXd& rho) const;
   /// @throws InputError naming the first constraint and scenario whose margin is not finite at the
   /// start of a search.

@@ -68,8 +68,8 @@ MeshMoments moments_of(const std::vector<Triangle>& triangles) {
     const Eigen::Vector3d s = a + b + c;
     moments.volume += d / 6.0;
     moments.first += d / 24.0 * s;
-    moments.second += d / 120.0 * (s * s.transpose() + a * a.transpose() + b * b.transpose() +
-                                   c * c.transpose());
+    moments.second +=
+        d / 120.0 * (s * s.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
     area += 0.5 * (b - a).cross(c - a).norm();
     add_edge(a, b, &edges);
     add_edge(b, c, &edges);

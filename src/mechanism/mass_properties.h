@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/robot.h"
+#include "math/mesh_moments.h"
 #include "math/scalar.h"
 
 namespace codesign {

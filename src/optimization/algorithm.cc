@@ -76,8 +76,7 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
           false);
   }
   if (!algorithm.takes_equalities &&
-      (has_equality(study) ||
-       std::any_of(study.watched.begin(), study.watched.end(), is_equality)))
+      (has_equality(study) || std::any_of(study.watched.begin(), study.watched.end(), is_equality)))
     refuse(
         "this algorithm takes no equality constraints, such as == among parameters and final with "
         "equal bounds",

@@ -158,8 +158,7 @@ double SearchTrials::same_within(const Eigen::VectorXd& step) {
     const EnsembleEvaluation there =
         ensemble_.evaluate(result_.best.rho + share * step, Derivatives::kGradient, cancel_);
     result_.cost.statistics += there.total.statistics;
-    if (there.total.status.ok())
-      noise = std::max(noise, std::abs(mean_at(there) - mean_at(best_)));
+    if (there.total.status.ok()) noise = std::max(noise, std::abs(mean_at(there) - mean_at(best_)));
   }
   return std::max(options_.relative_tolerance * std::abs(result_.best.objective), kOfNoise * noise);
 }
@@ -175,8 +174,9 @@ SearchTrials::Beside SearchTrials::look_at(const Eigen::VectorXd& step, const Si
   note_slopes(there.gradients);
   const double psi = result_.best.objective, stiffest = side.root.norm() * share,
                small = options_.relative_tolerance * std::abs(psi),
-               of_root = std::min(kFlatShare * stiffest * stiffest,
-                                  options_.relative_tolerance * std::abs(result_.initial.objective));
+               of_root =
+                   std::min(kFlatShare * stiffest * stiffest,
+                            options_.relative_tolerance * std::abs(result_.initial.objective));
   differs_beside_ = std::abs(there.total.objective - psi) > small;
   if (there.total.objective < psi - std::max(small, of_root) &&
       violation(there, rho) <= best_violation_ &&
@@ -204,7 +204,8 @@ SearchTrials::Beside SearchTrials::look_along_valley(Eigen::VectorXd rho, const 
     const ValleyFloor floor = valley_floor(
         mean_at(there), product(there.gradients, ensemble_.weights()).cwiseProduct(side.unit),
         there.total.jacobian_root * side.unit.asDiagonal(), side.active, side.held);
-    if (std::abs(floor.value - before) > std::max(limit, kTakenBack * rise)) return Beside::kChanged;
+    if (std::abs(floor.value - before) > std::max(limit, kTakenBack * rise))
+      return Beside::kChanged;
     rho += floor.step.cwiseProduct(side.unit);
     for (Eigen::Index i = 0; i < rho.size(); ++i) {
       const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(i)])];

@@ -23,9 +23,8 @@ struct Optimality {
   double slope = 0.0;      ///< residual of the conditions, in the unit of psi; 0 at an optimum
   Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the
                            ///< lower one, negative at the upper one
-  Eigen::MatrixXd
-      active;  ///< gradients by the scaled parameters of the rows with a multiplier and of all
-               ///< equalities, one per column
+  Eigen::MatrixXd active;  ///< gradients by the scaled parameters of the rows with a multiplier and
+                           ///< of all equalities, one per column
   int factorizations = 0;  ///< of matrices of the variables, as a measure of the work
 };
 

@@ -114,8 +114,8 @@ class Minimization {
   /// may stop by the objective's tolerance while it is still outside.
   bool should_restart() {
     const bool ended_outside = (program_.has_signals() || has_equalities()) &&
-                               trials_.have_best() &&
-                               !trials_.interrupted() && !trials_.best_keeps_bounds();
+                               trials_.have_best() && !trials_.interrupted() &&
+                               !trials_.best_keeps_bounds();
     const bool has_progressed =
         trials_.best_violation() < 0.9 * violation_before_ || restarts_ == 0;
     return ended_outside && has_progressed && restarts_ < kMostRestarts &&

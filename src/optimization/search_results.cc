@@ -355,7 +355,8 @@ ValleyFloor valley_floor(double value, const Eigen::VectorXd& gradient, const Ei
       slope += svd.V(to_signed(k), i) * gradient[moving[k]];
     floor.value -= std::pow(0.5 * slope / svd.values[i], 2);
     for (std::size_t k = 0; k < moving.size(); ++k)
-      floor.step[moving[k]] -= 0.5 * slope / (svd.values[i] * svd.values[i]) * svd.V(to_signed(k), i);
+      floor.step[moving[k]] -=
+          0.5 * slope / (svd.values[i] * svd.values[i]) * svd.V(to_signed(k), i);
   }
   return floor;
 }

@@ -46,7 +46,8 @@ Eigen::MatrixXd flat_directions(const Eigen::MatrixXd& root, const Eigen::Matrix
                                 const std::vector<bool>& held);
 
 /// The least value of psi + g^T p + |R p|^2 over steps p of the parameters that are not held, and
-/// the shortest step to it: of a sum of squares beside a design of a curved valley, its floor there.
+/// the shortest step to it: of a sum of squares beside a design of a curved valley, its floor
+/// there.
 struct ValleyFloor {
   double value = 0.0;
   Eigen::VectorXd step;

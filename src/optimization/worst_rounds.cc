@@ -34,12 +34,13 @@ class WorstRounds {
 
   void run() {
     for (int round = 0; is_promise(); ++round) {
-      WorstPoint found = find_worst_point(problem_, ensemble_, result_.best.rho,
-                                          result_.best.values, cancel_);
+      WorstPoint found =
+          find_worst_point(problem_, ensemble_, result_.best.rho, result_.best.values, cancel_);
       result_.cost.statistics += found.statistics;
       if (!found.status.ok()) return interrupt(found.status);
       const double promised = result_.best.objective;
-      if (!found.is_known || !(found.objective > promised + kSamePromise * std::abs(promised))) return;
+      if (!found.is_known || !(found.objective > promised + kSamePromise * std::abs(promised)))
+        return;
       const int left = options_.max_evaluations - result_.cost.evaluations;
       if (round == kMostWorstRounds || left < 1) return warn_of(found);
       Ensemble more = ensemble_.with(std::move(found.scenario));

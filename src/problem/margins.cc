@@ -85,8 +85,7 @@ Warnings unsatisfiable_constraints(const Study& study) {
   Warnings warnings;
   for (const ParameterConstraint& constraint : study.constraints) {
     const ValueRange range = constraint.margin->range(ranges);
-    const double most =
-        constraint.is_equality ? std::min(range.upper, -range.lower) : range.upper;
+    const double most = constraint.is_equality ? std::min(range.upper, -range.lower) : range.upper;
     if (most < least_margin(study, constraint))
       warnings.push_back(
           warn("unsatisfiable_constraint",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assembly/make_system.h"
+#include "description/parameter_switches.h"
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"

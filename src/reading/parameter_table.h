@@ -67,7 +67,7 @@ struct ParameterTable {
 
   std::vector<std::string> names;
   std::vector<double> values;
-  std::unordered_map<std::string, int> index;  ///< from name to index in `names` and `values`
+  std::unordered_map<std::string, int> index;     ///< from name to index in `names` and `values`
   mutable std::vector<ParameterSwitch> switches;  ///< of the parsed expressions
   mutable std::set<int> used;  ///< indices of the parameters on which a parsed expression depends
 

@@ -36,7 +36,7 @@ TEST(PendulumRobust, SamplesCoverBothLawsAndAllCoefficients) {
     least = std::min(least, scenario.values.at(0).second);
     most = std::max(most, scenario.values.at(0).second);
   }
-  EXPECT_EQ(gonthier, 16);
+  EXPECT_EQ(gonthier, 18) << "with the corners";
   EXPECT_LT(least, 0.02);
   EXPECT_GT(most, 0.48);
 }
@@ -46,8 +46,8 @@ TEST(PendulumRobust, TheWorstCaseOnFreshSamplesIsBetterThanThatOfTheNominalGains
   const Problem problem = pendulum_with({{"validate: 1000", "validate: 100"}});
   const OptimizationResult robust = optimize(problem);
   ASSERT_TRUE(robust.status.ok()) << robust.status.cause;
-  EXPECT_LE(robust.best.objective, 3716.0);
-  const Eigen::Vector3d gains(576.53, 779.75, 97.72);
+  EXPECT_LE(robust.best.objective, 3751.0);
+  const Eigen::Vector3d gains(579.35, 787.73, 98.47);
   for (Eigen::Index k = 0; k < 3; ++k)
     EXPECT_NEAR(robust.best.rho[k], gains[k], 0.01 * gains[k]) << k;
   const OptimizationResult nominal =
@@ -56,7 +56,7 @@ TEST(PendulumRobust, TheWorstCaseOnFreshSamplesIsBetterThanThatOfTheNominalGains
   EXPECT_EQ(robust.ensemble.validation->failed + nominal.ensemble.validation->failed, 0);
   EXPECT_LT(robust.ensemble.validation->worst, nominal.ensemble.validation->worst);
   EXPECT_GT(nominal.ensemble.validation->worst, 1.1 * nominal.ensemble.validation->promised);
-  EXPECT_LT(robust.ensemble.validation->worst, 1.05 * robust.ensemble.validation->promised);
+  EXPECT_LE(robust.ensemble.validation->worst, robust.ensemble.validation->promised);
 }
 
 }  // namespace

@@ -53,10 +53,10 @@ std::string jumps_of(const std::string& more) {
                                 more);
   std::string found;
   for (const ParameterJump& jump : find_jumps(study, Eigen::Vector2d(2.5, 2.0)))
-    found += (jump.parameter < 0
-                  ? "all"
-                  : study.parameters[static_cast<std::size_t>(jump.parameter)].name) +
-             ": " + jump.text + "; ";
+    found +=
+        (jump.parameter < 0 ? "all"
+                            : study.parameters[static_cast<std::size_t>(jump.parameter)].name) +
+        ": " + jump.text + "; ";
   return found;
 }
 

@@ -39,8 +39,8 @@ TEST(ControllerStates, HaveExactDerivatives) {
   const std::string terms = "{signal: a/output + shoulder/effort}";
   expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02"), terms);
   for (const char* keys : {"", ", derivative_filter: 0.02", ", sample_time: 0.01"})
-    expect_exact_rates(
-        pid("gains: {p: 3.0, d: 0.5}, derivative: measurement" + std::string(keys)), terms);
+    expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative: measurement" + std::string(keys)),
+                       terms);
   expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}, i_clamp: 0.3"), terms);
   for (const char* sign : {"", "-"})
     expect_exact_rates(

@@ -11,8 +11,9 @@ namespace {
 
 WorstPoint worst_of(const std::string& uncertain, int samples,
                     const std::atomic<bool>* cancel = nullptr) {
-  const Problem problem = block("uncertain: {" + uncertain + "}\nrobust: {measure: worst, samples: " +
-                                std::to_string(samples) + "}\n");
+  const Problem problem =
+      block("uncertain: {" + uncertain +
+            "}\nrobust: {measure: worst, samples: " + std::to_string(samples) + "}\n");
   const Ensemble ensemble(problem);
   return find_worst_point(problem, ensemble, problem.start(),
                           ensemble.evaluate(problem.start(), false).values, cancel);

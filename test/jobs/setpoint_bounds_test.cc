@@ -9,8 +9,8 @@ namespace codesign::setpoint_bounds {
 namespace {
 
 /// A mass of 2 kg that a controller moves along 0.5 sin(2 pi t): the force is at most 39.48 N.
-Warnings warnings_of(const std::string& bounds, const std::string& setpoint =
-                                                    "{type: sine, amplitude: 0.5, period: 1.0}",
+Warnings warnings_of(const std::string& bounds,
+                     const std::string& setpoint = "{type: sine, amplitude: 0.5, period: 1.0}",
                      const std::string& input = "slide/position") {
   const SourceText urdf{"block.urdf", R"(<robot name="block">
   <link name="ground"/>
@@ -30,8 +30,7 @@ Warnings warnings_of(const std::string& bounds, const std::string& setpoint =
 }
 
 TEST(SetpointBounds, AForceThatIsTooSmallIsTold) {
-  const Warnings warnings =
-      warnings_of("path: [{signal: slide/effort, between: [-30.0, 30.0]}]\n");
+  const Warnings warnings = warnings_of("path: [{signal: slide/effort, between: [-30.0, 30.0]}]\n");
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0].code, "bound_beyond_setpoints");
   EXPECT_NE(warnings[0].message.find("39.48 of slide/effort at t = 0."), std::string::npos)
@@ -40,10 +39,11 @@ TEST(SetpointBounds, AForceThatIsTooSmallIsTold) {
 }
 
 TEST(SetpointBounds, PositionsVelocitiesAndPeaksToo) {
-  EXPECT_EQ(warnings_of("path: [{signal: slide/position, at_most: 0.4}, {signal: slide/velocity, "
-                        "at_least: -3.0}]\nconstraints: [{peak: slide/acceleration, at_most: 15}]\n")
-                .size(),
-            3u);
+  EXPECT_EQ(
+      warnings_of("path: [{signal: slide/position, at_most: 0.4}, {signal: slide/velocity, "
+                  "at_least: -3.0}]\nconstraints: [{peak: slide/acceleration, at_most: 15}]\n")
+          .size(),
+      3u);
 }
 
 TEST(SetpointBounds, BoundsThatCanBeKeptAreNotDoubted) {
@@ -56,8 +56,7 @@ TEST(SetpointBounds, BoundsThatCanBeKeptAreNotDoubted) {
 }
 
 TEST(SetpointBounds, WithoutAMotionNothingIsSaid) {
-  EXPECT_TRUE(warnings_of("path: [{signal: slide/effort, at_most: 1.0}]\n", "0.3",
-                          "slide/velocity")
+  EXPECT_TRUE(warnings_of("path: [{signal: slide/effort, at_most: 1.0}]\n", "0.3", "slide/velocity")
                   .empty());
   EXPECT_TRUE(warnings_of("path: [{signal: hold/output, at_most: 1.0}]\n").empty())
       << "there is no controller along the set-points";

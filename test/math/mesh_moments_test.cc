@@ -33,10 +33,9 @@ TEST(MeshMoments, OfABoxAnywhere) {
   EXPECT_NEAR(moments.volume, volume, 1e-13);
   EXPECT_LT((moments.first - volume * centre).norm(), 1e-12);
   const Vector sides = to - from;
-  const Eigen::Matrix3d about_centre =
-      moments.second - volume * centre * centre.transpose(),
-                        exact = volume / 12.0 *
-                                Eigen::Matrix3d(sides.cwiseProduct(sides).asDiagonal());
+  const Eigen::Matrix3d about_centre = moments.second - volume * centre * centre.transpose(),
+                        exact =
+                            volume / 12.0 * Eigen::Matrix3d(sides.cwiseProduct(sides).asDiagonal());
   EXPECT_LT((about_centre - exact).norm(), 1e-11);
   EXPECT_EQ(moments.holes, 0.0);
 }

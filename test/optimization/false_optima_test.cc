@@ -143,12 +143,13 @@ TEST(FalseOptima, AFarOptimumIsFoundOrItsStopIsNoSuccess) {
 // Zero as a start tells nothing of sizes: at the start the second residual is 2e6 times as steep.
 TEST(FalseOptima, StartsOfZeroHaveNoSize) {
   for (const char* algorithm : {"auto", "slsqp", "lbfgs", "bobyqa", "cobyla", "mma"})
-    for (const auto& [large, small] : {std::pair(1e9, 1e-6), std::pair(1e6, 1e-9),
-                                       std::pair(1e11, 1e-3)}) {
+    for (const auto& [large, small] :
+         {std::pair(1e9, 1e-6), std::pair(1e6, 1e-9), std::pair(1e11, 1e-3)}) {
       const OptimizationResult result = tune(
           parameter("a", 0.0, "") + parameter("b", 0.0, ""),
-          squares({"a/" + std::to_string(large) + "-2.3", "b*" + std::to_string(1.0 / small) + "-2"},
-                  std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
+          squares(
+              {"a/" + std::to_string(large) + "-2.3", "b*" + std::to_string(1.0 / small) + "-2"},
+              std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
       EXPECT_TRUE(result.best.objective < 1e-3 || !(result.optimality.stationarity <= 1e-3))
           << algorithm << " " << large << ": stationary to " << result.optimality.stationarity
           << " at " << result.best.objective;
@@ -161,11 +162,11 @@ TEST(FalseOptima, StartsOfZeroHaveNoSize) {
 // R has entries of 1e5 and 13, whose squares differ by less than 1e-8: no flat direction.
 TEST(FalseOptima, ASoftDirectionBesideAStiffOneIsNotFlat) {
   for (const char* algorithm : {"auto", "slsqp"}) {
-    const OptimizationResult result =
-        tune(a_and_b(3.0, -1.0),
-             squares({"1e6*(a+b-1.5)", "a-1"}, std::string("optimizer: {max_evaluations: 1000, "
-                                                           "relative_tolerance: 1e-12, algorithm: ") +
-                                                   algorithm + "}\n"));
+    const OptimizationResult result = tune(
+        a_and_b(3.0, -1.0),
+        squares({"1e6*(a+b-1.5)", "a-1"}, std::string("optimizer: {max_evaluations: 1000, "
+                                                      "relative_tolerance: 1e-12, algorithm: ") +
+                                              algorithm + "}\n"));
     EXPECT_EQ(result.optimality.flat_directions.cols(), 0) << algorithm;
   }
 }
@@ -176,8 +177,8 @@ TEST(FalseOptima, ThePointsOfAFlatDirectionAreAsGood) {
     const OptimizationResult result = tune(a_and_b(1.7, 1.2), squares({residual}));
     ASSERT_EQ(result.optimality.flat_points.cols(), 1) << residual;
     const double a = result.optimality.flat_points(0, 0), b = result.optimality.flat_points(1, 0);
-    const double left = residual == std::string("a*b-1")      ? a * b - 1.0
-                        : residual == std::string("a-b*b-1")  ? a - b * b - 1.0
+    const double left = residual == std::string("a*b-1")        ? a * b - 1.0
+                        : residual == std::string("a-b*b-1")    ? a - b * b - 1.0
                         : residual == std::string("exp(a)*b-2") ? std::exp(a) * b - 2.0
                                                                 : a + b - 1.0;
     EXPECT_LT(left * left, 1e-6) << residual;
@@ -188,16 +189,19 @@ TEST(FalseOptima, ThePointsOfAFlatDirectionAreAsGood) {
 
 // A staircase has the slope zero wherever a search stops on it.
 TEST(FalseOptima, AStaircaseIsNotCalledStationary) {
-  const std::vector<std::string> stairs{
-      "floor(a)-7",          "ceil(a)-7",
-      "sign(a-6.5)-2",       "floor(a+0.5)-7",
-      "(a > 6.5 ? 1 : 3)-1.5", "(a < 2 ? 5 : (a < 7 ? 3 : 1))",
-      "0.01*a+floor(a)-7",   "(a > 6.5 and a < 8 ? 0 : 2) + 0.001*a"};
+  const std::vector<std::string> stairs{"floor(a)-7",
+                                        "ceil(a)-7",
+                                        "sign(a-6.5)-2",
+                                        "floor(a+0.5)-7",
+                                        "(a > 6.5 ? 1 : 3)-1.5",
+                                        "(a < 2 ? 5 : (a < 7 ? 3 : 1))",
+                                        "0.01*a+floor(a)-7",
+                                        "(a > 6.5 and a < 8 ? 0 : 2) + 0.001*a"};
   for (const std::string& stair : stairs)
     for (const char* algorithm : {"auto", "slsqp", "lbfgs", "bobyqa", "cobyla"}) {
-      const OptimizationResult result = tune(
-          a_and_b(3.2, -1.0),
-          squares({stair, "b-2"}, std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
+      const OptimizationResult result =
+          tune(a_and_b(3.2, -1.0),
+               squares({stair, "b-2"}, std::string("optimizer: {algorithm: ") + algorithm + "}\n"));
       if (result.best.objective == 0.0) continue;
       EXPECT_TRUE(std::isnan(result.optimality.stationarity)) << stair << " " << algorithm;
       EXPECT_TRUE(result.termination == "stopped_early" ||

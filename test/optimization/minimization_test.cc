@@ -74,12 +74,11 @@ OptimizationResult nearest(const std::string& constraints, const std::string& mo
 
 // On a + b = 3 the multiplier is 2 a = 4 b.
 TEST(Minimization, AnEqualityAmongParametersIsKept) {
-  for (const char* text : {"\"a + b == 3\"", "\"3 == a + b\"",
-                           "{expression: \"${a + b}\", between: [3, 3]}"})
+  for (const char* text :
+       {"\"a + b == 3\"", "\"3 == a + b\"", "{expression: \"${a + b}\", between: [3, 3]}"})
     for (const char* algorithm : {"auto", "slsqp", "cobyla", "auglag_lbfgs"}) {
-      const OptimizationResult result =
-          nearest(text, std::string("optimizer: {max_evaluations: 1000, algorithm: ") + algorithm +
-                            "}\n");
+      const OptimizationResult result = nearest(
+          text, std::string("optimizer: {max_evaluations: 1000, algorithm: ") + algorithm + "}\n");
       ASSERT_TRUE(result.status.ok()) << text << algorithm << ": " << result.status.cause;
       EXPECT_NEAR(result.best.rho[0], 2.0, 2e-3) << text << algorithm;
       EXPECT_NEAR(result.best.rho[0] + result.best.rho[1], 3.0, 1e-7) << text << algorithm;
@@ -100,9 +99,9 @@ TEST(Minimization, AnEqualityAmongParametersIsKept) {
 
 TEST(Minimization, AlgorithmsWithoutEqualitiesSaySo) {
   for (const char* algorithm : {"mma", "ccsaq"})
-    EXPECT_THROW(nearest("\"a + b == 3\"", std::string("optimizer: {algorithm: ") + algorithm +
-                                               "}\n"),
-                 InputError)
+    EXPECT_THROW(
+        nearest("\"a + b == 3\"", std::string("optimizer: {algorithm: ") + algorithm + "}\n"),
+        InputError)
         << algorithm;
 }
 

@@ -38,8 +38,8 @@ bool has_code(const OptimizationResult& result, const std::string& code) {
 
 // Samples lie within the interval, its ends decide.
 TEST(WorstRounds, ThePromiseHoldsAtTheEnds) {
-  const OptimizationResult result = optimize(
-      problem_of("x", "x: {uniform: [0, 1]}", "robust: {measure: worst, samples: 4}\n"));
+  const OptimizationResult result =
+      optimize(problem_of("x", "x: {uniform: [0, 1]}", "robust: {measure: worst, samples: 4}\n"));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_NEAR(result.best.rho[0], 0.5, 1e-6);
   EXPECT_NEAR(result.best.objective, 0.25, 1e-8);
@@ -64,7 +64,8 @@ TEST(WorstRounds, ThePromiseHoldsBetweenTheSamples) {
     EXPECT_NEAR(result.initial.objective, 8.3504 * 8.3504, 1e-6) << "of the study's start";
     ASSERT_GT(result.ensemble.scenarios.size(), 4u) << "two samples, two corners, the worst point";
     double worst = 0.0;
-    for (const ScenarioResult& one : result.ensemble.scenarios) worst = std::max(worst, one.objective);
+    for (const ScenarioResult& one : result.ensemble.scenarios)
+      worst = std::max(worst, one.objective);
     EXPECT_EQ(worst, result.best.objective);
     const ScenarioResult& last = result.ensemble.scenarios.back();
     EXPECT_NEAR(last.values.at(0).second, 0.37, 0.01);
@@ -80,8 +81,9 @@ TEST(WorstRounds, ThePromiseHoldsBetweenTheSamples) {
 }
 
 TEST(WorstRounds, SeveralIntervalsHaveTheirCorners) {
-  const OptimizationResult result = optimize(
-      problem_of("3*x - 2*y", "x: {uniform: [0, 1]}, y: {uniform: [0, 1]}", "robust: {measure: worst, samples: 2, sampler: random}\n"));
+  const OptimizationResult result =
+      optimize(problem_of("3*x - 2*y", "x: {uniform: [0, 1]}, y: {uniform: [0, 1]}",
+                          "robust: {measure: worst, samples: 2, sampler: random}\n"));
   EXPECT_NEAR(result.best.rho[0], 0.5, 1e-4);
   EXPECT_NEAR(result.best.objective, 6.25, 1e-3);
 }

@@ -45,8 +45,8 @@ TEST(Margins, AConstraintThatNoDesignMeetsIsDoubted) {
 }
 
 TEST(Margins, AnEqualityIsMetOnBothSides) {
-  const Problem problem =
-      block("constraints: [\"Kp == 20\", {expression: \"${Kd}\", between: [4, 4]}, \"Kp <= 30\"]\n");
+  const Problem problem = block(
+      "constraints: [\"Kp == 20\", {expression: \"${Kd}\", between: [4, 4]}, \"Kp <= 30\"]\n");
   const Study& study = study_of(problem);
   ASSERT_EQ(study.constraints.size(), 3U);
   const auto left = [&](std::size_t k, double Kp, double Kd) {

@@ -19,9 +19,9 @@ constexpr double kNegligible = 1e-14;  // of the largest weight of a value in a 
 
 /// The points of a table.
 struct Points {
-  Numbers x;                       ///< ascending
-  std::vector<std::string> texts;  ///< of the values, as parts of an expression
-  Numbers numbers;                 ///< the values; of an expression 0
+  Numbers x;                             ///< ascending
+  std::vector<std::string> texts;        ///< of the values, as parts of an expression
+  Numbers numbers;                       ///< the values; of an expression 0
   std::vector<std::size_t> expressions;  ///< indices of the values that are expressions
   bool is_cubic = true, is_periodic = false;
 
@@ -145,8 +145,8 @@ class Writer {
     if (pieces == 1) return tangent(0, false);
     // Beyond its ends the spline goes on along its tangents.
     return "(" + argument_ + " < " + in_brackets(points_.x.front()) + " ? " + tangent(0, false) +
-           " : (" + argument_ + " < " + in_brackets(points_.x.back()) + " ? " +
-           between(0, pieces) + " : " + tangent(pieces, true) + "))";
+           " : (" + argument_ + " < " + in_brackets(points_.x.back()) + " ? " + between(0, pieces) +
+           " : " + tangent(pieces, true) + "))";
   }
 
  private:
@@ -220,9 +220,8 @@ void read_values(const YamlValue& values, const ParameterTable& table, Points* p
 
 /// One period ends as it begins.
 void check_period(const YamlValue& values, const Points& points) {
-  const bool is_same = points.expressions.empty() ||
-                               (points.expressions.front() > 0 &&
-                                points.expressions.back() + 1 < points.size())
+  const bool is_same = points.expressions.empty() || (points.expressions.front() > 0 &&
+                                                      points.expressions.back() + 1 < points.size())
                            ? points.numbers.front() == points.numbers.back()
                            : points.texts.front() == points.texts.back();
   if (!is_same)

@@ -49,7 +49,8 @@ void require_partner(const YamlValue& controller, const std::string& key, bool h
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
   own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
   if (kind->is_pid)
-    own.insert(own.end(), {"i_clamp", "antiwindup", "derivative", "derivative_filter", "quantization"});
+    own.insert(own.end(),
+               {"i_clamp", "antiwindup", "derivative", "derivative_filter", "quantization"});
   return own;
 }
 

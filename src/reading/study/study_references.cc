@@ -123,12 +123,12 @@ void check_times(const NumberTable::Columns& cells, const NumberTable& table,
                  const std::string& column) {
   const std::vector<double>& times = cells.values[0];
   if (times.size() < 2)
-    throw InputError({{table.file(), table.first_line()},
-                      "column \"" + column + "\"",
-                      "a trajectory needs at least two way-points, found " +
-                          std::to_string(times.size()),
-                      "",
-                      "a row per way-point"});
+    throw InputError(
+        {{table.file(), table.first_line()},
+         "column \"" + column + "\"",
+         "a trajectory needs at least two way-points, found " + std::to_string(times.size()),
+         "",
+         "a row per way-point"});
   for (std::size_t k = 1; k < times.size(); ++k)
     if (!(times[k - 1] < times[k]))
       throw InputError({{table.file(), static_cast<int>(cells.lines[k])},

@@ -100,19 +100,19 @@ std::vector<ParameterSwitch> switches_of(const SignalDescription& signal,
       variables.push_back({name == "t" ? VariableKind::kTime : VariableKind::kSignal, -1});
   }
   std::vector<ParameterSwitch> found = find_switches(
-      signal.formula->steps, signal.formula->text,
-      [&](int k) { return variables[to_index(k)]; }, at_instant);
+      signal.formula->steps, signal.formula->text, [&](int k) { return variables[to_index(k)]; },
+      at_instant);
   // Any numbers, at which signals do not happen to cancel a jump.
   for (const double other : {0.37, -1.3})
     for (ParameterSwitch& one : found)
-      one.values.emplace_back([formula = signal.formula, variables, other](
-                                  const std::vector<double>& parameters) {
-        std::vector<double> values;
-        for (const ExpressionVariable& variable : variables)
-          values.push_back(variable.parameter < 0 ? other
-                                                  : parameters[to_index(variable.parameter)]);
-        return evaluate_formula<double>(formula->steps, In<double>(values));
-      });
+      one.values.emplace_back(
+          [formula = signal.formula, variables, other](const std::vector<double>& parameters) {
+            std::vector<double> values;
+            for (const ExpressionVariable& variable : variables)
+              values.push_back(variable.parameter < 0 ? other
+                                                      : parameters[to_index(variable.parameter)]);
+            return evaluate_formula<double>(formula->steps, In<double>(values));
+          });
   return found;
 }
 

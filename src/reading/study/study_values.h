@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "description/expression.h"
+#include "description/parameter_switches.h"
 #include "description/robot.h"
 #include "description/study.h"
 #include "reading/parameter_table.h"

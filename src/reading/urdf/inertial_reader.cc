@@ -19,8 +19,7 @@ ShapeDescription read_solid(const XmlElement& visual, const ParameterTable& tabl
   shape.origin = read_origin(visual, table);
   const XmlElement geometry = visual.only("geometry");
   const std::vector<XmlElement> kinds = geometry.children();
-  if (kinds.size() != 1)
-    geometry.fail("the geometry does not hold exactly one shape", "", kShapes);
+  if (kinds.size() != 1) geometry.fail("the geometry does not hold exactly one shape", "", kShapes);
   const XmlElement& kind = kinds.front();
   if (kind.tag() == "box") {
     shape.kind = ShapeDescription::Kind::kBox;
@@ -156,7 +155,8 @@ void write_out_densities(XmlDocument* document) {
        node = node->NextSiblingElement("link")) {
     const XmlElement link(node, document);
     const std::optional<XmlElement> inertial = link.child("inertial");
-    if (!inertial || !inertial->has("codesign:density") || !inertial->in_overlay("codesign:density"))
+    if (!inertial || !inertial->has("codesign:density") ||
+        !inertial->in_overlay("codesign:density"))
       continue;
     const std::optional<XmlElement> mass = inertial->child("mass");
     if (mass && mass->in_overlay("value") && inertial->child("inertia")) continue;

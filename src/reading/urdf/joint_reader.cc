@@ -12,8 +12,7 @@ namespace codesign {
 
 int ReadContext::link(const XmlElement& element, const std::string& attribute) const {
   const std::string name = element.text(attribute);
-  if (const auto known = link_indices.find(name); known != link_indices.end())
-    return known->second;
+  if (const auto known = link_indices.find(name); known != link_indices.end()) return known->second;
   const auto found = std::find(links.begin(), links.end(), name);
   if (found == links.end())
     throw unknown_name(element.where(attribute), element.label(), "link", name, links);

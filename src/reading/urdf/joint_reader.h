@@ -16,8 +16,8 @@ namespace codesign {
 struct ReadContext {
   std::vector<std::string> links;  ///< names, in the order of RobotDescription::links
   ParameterTable table;
-  Warnings* warnings = nullptr;         ///< never null while a robot is read
-  const Laws* laws = &standard_laws();  ///< never null
+  Warnings* warnings = nullptr;                         ///< never null while a robot is read
+  const Laws* laws = &standard_laws();                  ///< never null
   std::unordered_map<std::string, int> link_indices{};  ///< of `links`; empty: they are searched
 
   /// Index of the link that `attribute` names. @throws InputError naming the link with the nearest

@@ -130,8 +130,7 @@ MeshMoments read_mesh(const XmlElement& mesh) {
   const std::string extension = lower_extension(path);
   if (extension != ".stl" && extension != ".obj")
     mesh.fail_at("filename", "mass cannot be computed from meshes of this format", kAllowed);
-  const std::vector<Triangle> triangles =
-      triangles_in(content_of(path, mesh), extension == ".obj");
+  const std::vector<Triangle> triangles = triangles_in(content_of(path, mesh), extension == ".obj");
   if (triangles.empty())
     mesh.fail_at("filename", "the file of the mesh has no triangles that can be read", kAllowed);
   MeshMoments moments = moments_of(triangles);

@@ -38,7 +38,7 @@ enum class PlainNumbers { kAsWritten, kFilledIn };
 /// defaults; it may have been missing. Each line of the text knows its place in the files.
 /// @throws InputError as read_urdf() for everything else.
 SourceText write_filled_urdf(const SourceText& urdf, const std::vector<SourceText>& overlays,
-                              const Laws& laws = standard_laws());
+                             const Laws& laws = standard_laws());
 
 /// Parses the URDF, merges the overlays and checks all element and attribute names. @throws
 /// InputError

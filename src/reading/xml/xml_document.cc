@@ -98,8 +98,7 @@ std::string XmlDocument::text(bool compact) const {
 
 SourceLocation XmlDocument::location(const tinyxml2::XMLElement* element) const {
   const auto found = foreign_elements_.find(element);
-  return found != foreign_elements_.end() ? found->second
-                                          : at_line(element->GetLineNum());
+  return found != foreign_elements_.end() ? found->second : at_line(element->GetLineNum());
 }
 
 SourceLocation XmlDocument::at_line(int line) const {

@@ -98,8 +98,8 @@ TEST(SignalTable, RepeatsItsPeriod) {
     return (cubic(s + 1e-3) - 2.0 * cubic(s) + cubic(s - 1e-3)) / 1e-6;
   };
   EXPECT_NEAR(second(0.5 - 2e-3), second(0.5 + 2e-3), 0.01);
-  const auto three = function_of("at: [0, 1, 2], values: [\"${a}\", 1, \"${a}\"], periodic: true",
-                                 -1.0);
+  const auto three =
+      function_of("at: [0, 1, 2], values: [\"${a}\", 1, \"${a}\"], periodic: true", -1.0);
   EXPECT_NEAR(three(0.5), 0.0, 1e-15) << "between two extrema";
   EXPECT_NEAR(three(1001.5), 0.0, 1e-12);
   EXPECT_NEAR(slope(three, 2.0, 1e-5), 0.0, 1e-4);

@@ -148,8 +148,9 @@ TEST(StudyReferences, ATrajectoryInATable) {
   EXPECT_NE(fault(reference, "t,height\n0,0.5\n# a note\n1,0.7\n1,0.8\n")
                 .find("road.csv:5: column \"t\": the times must ascend"),
             std::string::npos);
-  EXPECT_NE(fault(reference, "t,height\n0,0.5\n").find("road.csv:1: column \"t\": a trajectory needs"),
-            std::string::npos);
+  EXPECT_NE(
+      fault(reference, "t,height\n0,0.5\n").find("road.csv:1: column \"t\": a trajectory needs"),
+      std::string::npos);
   EXPECT_THROW(read_study({"study.yaml", with_reference(reference)}, study_robot()), InputError);
   // The comma is the decimal point of the names, and the semicolon the separator.
   const std::string semicolons = "t;height,left\n0;0.5\n0.5;0.7\n";

@@ -188,7 +188,8 @@ TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   const SourceText overlay = {
       "over.xml",
       R"(<robot name="test" xmlns:codesign="urn:x"><joint name="hinge"><origin codesign:xyz="0 0 ${length}"/></joint></robot>)"};
-  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).text.find("xyz=\"0 0 0.2\""), std::string::npos);
+  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).text.find("xyz=\"0 0 0.2\""),
+            std::string::npos);
   const auto fault_of_filled = [](const std::string& joint) -> std::string {
     try {
       write_filled_urdf(pendulum(joint, "<link name=\"arm\"/>"), {});
@@ -227,7 +228,8 @@ TEST(FilledUrdf, WarningsHaveTheLinesOfTheFiles) {
   const RobotDescription robot = read_urdf(filled);
   const auto line_of = [&](const std::string& code) {
     for (const Warning& warning : robot.warnings)
-      if (warning.code == code) return warning.where.file + ":" + std::to_string(warning.where.line);
+      if (warning.code == code)
+        return warning.where.file + ":" + std::to_string(warning.where.line);
     return std::string("none");
   };
   EXPECT_EQ(line_of("limits_reversed"), "model.urdf:11");
