@@ -26,7 +26,7 @@ TEST(DriveLines, AnArmatureIsAnElementOnceNothingIsMissing) {
   write_armature({joint, 50.0, ""}, 0.5, &known);
   EXPECT_TRUE(says(known,
                    "\n  <joint name=\"hinge\"><codesign:actuator gear_ratio=\"50\" "
-                   "rotor_inertia=\"0.0002\"/></joint>"))
+                   "rotor_inertia=\"2e-04\"/></joint>"))
       << known.text();
   EXPECT_FALSE(says(known, "usual"));
   write_armature({joint, 0.0, "once it has a mass"}, 0.5, &waiting);
