@@ -68,7 +68,9 @@ bool AdjointGradient::look_at_end() {
   const std::vector<double>& parameters = integrator_.equations().parameters();
   Eigen::VectorXd time = duration_gradient(system_.study(), parameters);
   if (integrator_.is_ended()) time.setZero();
-  return end_.evaluate(&integrator_, time).ok();
+  if (!end_.evaluate(&integrator_, time).ok()) return false;
+  return integrator_.end_guard() < 0 ||
+         integrator_.judge_end(integrator_.guard_rate(end_.state(), end_.rates())).ok();
 }
 
 // The backward pass begins with the gradient of the terminal terms as the adjoint of the last
@@ -85,7 +87,7 @@ void AdjointGradient::prepare() {
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
   back_->jumps.start(parameters);
   if (const int guard = integrator_.end_guard(); end_.moves() && guard >= 0) {
-    const double rate = integrator_.end_guard_rate(end_.state(), end_.rates());
+    const double rate = integrator_.guard_rate(end_.state(), end_.rates());
     back_->jumps.add_guard(guard, -end_.objective_rate() / rate, integrator_.state(),
                            integrator_.mode(), &adjoint);
   }
