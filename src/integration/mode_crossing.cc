@@ -134,14 +134,18 @@ bool ModeWatch::has_jump(const ModeChange& change) const {
 }
 
 // The guard that the change of the rates itself has moved beyond zero, such as one of an
-// acceleration; -1 if there is none.
+// acceleration; -1 if there is none. Near zero, where the one is that changed the mode, rounding of
+// the rates is no move.
 int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equations) {
   constexpr double kSame = 1e-9;
   equations->compiled().switches(change.before, &residual_, &right_);
   equations->compiled().switches(change.behind, &ahead_, &right_);
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
-    const double size = std::max(std::abs(residual_[k]), std::abs(ahead_[k]));
-    if (side(k, ahead_) < 0.0 && std::abs(ahead_[k] - residual_[k]) > kSame * size) return k;
+    const double size = std::max(std::abs(residual_[k]), std::abs(ahead_[k])),
+                 rounding = k == change.guard ? sizes_[k] : 0.0;
+    if (side(k, ahead_) < 0.0 &&
+        std::abs(ahead_[k] - residual_[k]) > std::max(rounding, kSame * size))
+      return k;
   }
   return -1;
 }

@@ -95,6 +95,30 @@ TEST(ModeWatch, AGuardThatIsNotAskedForBehindASwitchNeedsNoValue) {
   EXPECT_TRUE(status.ok()) << describe(status);
 }
 
+// The rates are solved for again where the guard of an acceleration is zero: their rounding does
+// not lead back over it.
+TEST(ModeWatch, AGuardOfAnAccelerationIsPassedOnce) {
+  const RobotDescription model = read_urdf({"pendulum.urdf", double_pendulum()});
+  for (const char* solver : {"method: auto", "method: dopri5, coordinates: absolute",
+                             "method: rodas5p", "method: rodas4, coordinates: absolute"}) {
+    std::size_t events = 0;
+    for (const char* threshold : {"-6", "-3", "-1", "0", "0.3", "1", "2.7", "5"}) {
+      const std::string text =
+          "duration: 1.5\ninitial_state: {shoulder: {position: -0.8}}\nobjective: {integral: "
+          "[{signal: \"${elbow/acceleration < " +
+          std::string(threshold) + " ? shoulder/velocity : 0}\"}]}\nsolver: {" + solver + "}\n";
+      const auto system = make_system(model, read_study({"study.yaml", text}, model));
+      RosenbrockIntegrator integrator(*system);
+      Status status = integrator.start(system->parameters());
+      while (status.ok() && integrator.state().t < 1.5) status = integrator.advance(1.5);
+      EXPECT_TRUE(status.ok()) << describe(status);
+      events += static_cast<std::size_t>(integrator.events().count());
+    }
+    // The passages of all thresholds, as many by every method.
+    EXPECT_EQ(events, 32U) << solver;
+  }
+}
+
 // The mode of every step is that of its beginning, and none is left without a switch.
 TEST(ModeWatch, SystemsWithoutSwitchesHaveNoMode) {
   const RobotDescription model = read_urdf({"slide.urdf", slide()});
