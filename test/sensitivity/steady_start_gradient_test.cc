@@ -50,7 +50,8 @@ SlidingCase slide(const std::string& law, const std::string& speed) {
 SlidingCase puck_in_plane(const std::string& law) {
   return {law + "_plane", sliding_box("planar", "0 0 1", law),
           "{joint: {linear_velocity: [\"${0.1*v0}\", 0.05, 0.0], angular_velocity: 0.3}}",
-          "mu: {}, vs: {}, v0: {initial: 1.0, lower: 0.5, upper: 2.0}",
+          (law == "lugre" ? "mu: {}, " : "") +
+              std::string("vs: {}, v0: {initial: 1.0, lower: 0.5, upper: 2.0}"),
           "{signal: box/position/x}, {signal: box/velocity/y}"};
 }
 
