@@ -392,8 +392,7 @@ Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<d
 Status Assembly::solve(const std::vector<double>& parameters, Equations<double>* equations,
                        State<double>* state) {
   if (Status status = solve_motion(parameters, equations, state); !status.ok()) return status;
-  if (system_.begins_bristles()) equations->begin_bristles(state);
-  if (system_.begins_controllers()) equations->begin_controllers(state);
+  equations->begin_states(state);
   const Status status = hold_stuck(equations, state);
   return status.ok() ? check_rest(*state) : status;
 }

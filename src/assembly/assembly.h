@@ -53,8 +53,8 @@ class Assembly {
 
   /// Finds positions, velocities, accelerations and multipliers and writes them to `state`, with t
   /// = 0, or as begin_at() says, and the extra states as set_extra_states() says, except for
-  /// controllers with another begin (Equations::begin_controllers()), bristles that slide, (13j),
-  /// and bristles that hold a joint.
+  /// controllers and bristles with another begin (Equations::begin_states()), and bristles that
+  /// hold a joint.
   /// @param parameters all named parameters (Study::parameters order).
   /// @param equations must hold the design at `parameters`.
   Status solve(const std::vector<double>& parameters, Equations<double>* equations,

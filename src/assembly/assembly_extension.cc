@@ -111,8 +111,7 @@ void Assembly::extend(const std::vector<T>& parameters, const State<double>& sta
   correct(velocities_, w.Phi_rate, workspace, &w.rate);
   for (const auto& [motor, joint] : tree_.motors) w.rate[motor] = w.rate[joint];
   place_extended();
-  if (system_.begins_bristles()) equations->begin_bristles(state);
-  if (system_.begins_controllers()) equations->begin_controllers(state);
+  equations->begin_states(state);
   if (!stuck_.is_empty()) extend_stuck(start, equations, workspace, state);
   extend_rates(start.z, equations, workspace, state);
 }

@@ -96,6 +96,12 @@ void Equations<T>::stuck_slips(const State<T>& state, VectorX<T>* accelerations,
 }
 
 template <class T>
+void Equations<T>::begin_states(State<T>* state) {
+  if (system_.begins_bristles()) begin_bristles(state);
+  if (system_.begins_controllers()) begin_controllers(state);
+}
+
+template <class T>
 void Equations<T>::begin_bristles(State<T>* state) {
   if constexpr (kIsReal) {
     formulas_->load(*state);

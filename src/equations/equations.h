@@ -91,12 +91,10 @@ class Equations {
   void track_turns(State<T>* state);
   /// stuck_slips() at a state. @param accelerations, limits of their sizes, overwritten.
   void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
-  /// Sets the states of friction laws to steady sliding at the positions and velocities of a state,
-  /// theory (13j); other states stay. For systems that System::begins_bristles().
-  void begin_bristles(State<T>* state);
-  /// Sets the states of controllers to their values at t = 0, theory (50), (51): filters at rest,
-  /// first samples taken.
-  void begin_controllers(State<T>* state);
+  /// Sets the states that do not begin at zero, at the positions and velocities of a state: of
+  /// friction laws to steady sliding, theory (13j), of controllers to their values at t = 0, theory
+  /// (50), (51), filters at rest and first samples taken. Other states stay.
+  void begin_states(State<T>* state);
   /// Carries the states of sampled controllers over the events of an instant, theory (51). The
   /// rates state->z do not change; solve for them afterwards.
   void jump(const std::vector<ControlEvent>& events, State<T>* state);
@@ -113,6 +111,8 @@ class Equations {
   CompiledEquations<T>& compiled() { return compiled_; }
 
  private:
+  void begin_bristles(State<T>* state);
+  void begin_controllers(State<T>* state);
   static constexpr bool kIsReal = std::is_same_v<T, double>;
 
   T sample(int controller, bool is_first, State<T>* state);

@@ -42,7 +42,7 @@ struct FrictionNumberRule {
     kRefused,
     kStandard,
     kLengthOfOne,
-    kOfMachine,  ///< follows the machine, theory (13i)
+    kOfMachine,  ///< follows the machine, theory (13i); 1 until set_machine_numbers()
     kPinRadius,
     kTenTransitions,
     kMuStatic,

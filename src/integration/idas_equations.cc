@@ -25,10 +25,6 @@ constexpr int kDone = 0, kRetry = 1, kGiveUp = -1;
 // enough to keep it small and far too slow to make the equations stiff.
 constexpr double kStabilizations = 20.0;
 
-// Absolute tolerance that excludes multipliers from convergence tests. With redundant constraints,
-// multipliers that are not unique vary by rounding divided by the compliance.
-constexpr double kAnyMultiplier = 1e10;
-
 /// Runs `action` and turns an exception into a message and kGiveUp, since none may pass through the
 /// C code of IDAS.
 template <class Action>
@@ -47,10 +43,6 @@ int guarded(std::string* failure, const Action& action) {
 
 IdasEquations::IdasEquations(const CompiledSystem& system, IdasNewton* newton)
     : layout_(system.layout()),
-      options_(system.study().solver),
-      rate_sizes_(layout_),
-      multiplier_tolerance_(system.compliance() > 0.0 ? kAnyMultiplier
-                                                      : options_.absolute_tolerance),
       newton_(*newton),
       equations_(system),
       turns_(system),
@@ -94,18 +86,6 @@ void IdasEquations::pack(const State<double>& state, Out<double> y, Out<double> 
   part(y_dot, n, n) = state.z.head(n);
   part(y_dot, 2 * n, states) = state.z.tail(states);
   part(y_dot, 2 * n + states, m).setZero();
-}
-
-void IdasEquations::error_weights(In<double> y, Out<double> weights) const {
-  const auto weight = [this](double size, double absolute) {
-    return 1.0 / (options_.relative_tolerance * size + absolute);
-  };
-  const int n = layout_.n, multipliers = size() - layout_.m;
-  for (int k = 0; k < size(); ++k)
-    weights[k] = weight(std::abs(y[k]),
-                        k < multipliers ? options_.absolute_tolerance : multiplier_tolerance_);
-  for (int k = 0; k < n; ++k)
-    weights[n + k] = weight(rate_sizes_.of(part(y, n, n), k), options_.absolute_tolerance);
 }
 
 int IdasEquations::residual(double t, In<double> y, In<double> y_dot, Out<double> F) {
@@ -162,11 +142,6 @@ bool IdasEquations::visit_to_solve(double t, In<double> y, In<double> y_dot) {
 void IdasEquations::derivative(int k, In<double> y_rho, In<double> y_dot_rho) {
   unpack(state_.t, y_rho, y_dot_rho, &direction_);
   sensitivities_->derivative(k, direction_, &dG_);
-}
-
-int IdasEquations::error_weights(N_Vector y, N_Vector weights, void* self) {
-  static_cast<const IdasEquations*>(self)->error_weights(span_of(y), span_of(weights));
-  return kDone;
 }
 
 int IdasEquations::residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self) {

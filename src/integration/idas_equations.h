@@ -10,7 +10,6 @@
 #include "integration/idas_newton.h"
 #include "integration/idas_order.h"
 #include "integration/integrator.h"
-#include "integration/rate_sizes.h"
 #include "integration/run_watch.h"
 
 namespace codesign {
@@ -87,8 +86,6 @@ class IdasEquations {
   /// Message of an exception inside a callback; empty if there was none.
   const std::string& failure() const { return failure_; }
 
-  /// The weights 1/(relative |y| + absolute) of errors, with |y| of velocities as in RateSizes.
-  static int error_weights(N_Vector y, N_Vector weights, void* self);
   static int residual(sunrealtype t, N_Vector y, N_Vector y_dot, N_Vector F, void* self);
   static int jacobian(sunrealtype t, sunrealtype c_j, N_Vector y, N_Vector y_dot, N_Vector F,
                       SUNMatrix J, void* self, N_Vector, N_Vector, N_Vector);
@@ -101,7 +98,6 @@ class IdasEquations {
                                    N_Vector* g_rho, void* self, N_Vector, N_Vector, N_Vector);
 
  private:
-  void error_weights(In<double> y, Out<double> weights) const;
   int residual(double t, In<double> y, In<double> y_dot, Out<double> F);
   int jacobian(double t, double c_j, In<double> y, In<double> y_dot);
   int integrand(double t, In<double> y, In<double> y_dot, Out<double> g);
@@ -116,9 +112,6 @@ class IdasEquations {
   void load(double t, In<double> y, In<double> y_dot);
 
   const Layout& layout_;
-  const SolverOptions& options_;
-  const RateSizes rate_sizes_;
-  double multiplier_tolerance_;  ///< absolute
   IdasNewton& newton_;
   Equations<double> equations_;
   IdasSensitivities* sensitivities_ = nullptr;

@@ -11,11 +11,26 @@
 namespace codesign {
 namespace {
 
+// Absolute tolerance that excludes multipliers from convergence tests.
+constexpr double kAnyMultiplier = 1e10;
+
 /// The part of the multipliers, the last in y.
 Span<double> multipliers_of(const CompiledSystem& system, const VectorHandle& y) {
   const int m = system.layout().m;
   const Span<double> all = span_of(y.get());
   return all.subspan(all.size() - m, m);
+}
+
+// With redundant constraints, multipliers that are not unique vary by rounding divided by the
+// compliance: Newton's convergence test must not include them.
+void set_tolerances(const IdasMemory& memory, const CompiledSystem& system, int size) {
+  const SolverOptions& options = system.study().solver;
+  const VectorHandle absolute = make_vector(size, memory.context);
+  N_VConst(options.absolute_tolerance, absolute.get());
+  const Span<double> multipliers = multipliers_of(system, absolute);
+  if (system.compliance() > 0.0) std::fill(multipliers.begin(), multipliers.end(), kAnyMultiplier);
+  require(IDASVtolerances(memory.ida, options.relative_tolerance, absolute.get()),
+          "IDASVtolerances");
 }
 
 }  // namespace
@@ -32,7 +47,7 @@ void set_up_idas(const IdasMemory& memory, const CompiledSystem& system, IdasEqu
   set_order_floor(vectors.y, &equations->order_floor());
   require(IDAInit(ida, IdasEquations::residual, 0.0, vectors.y, vectors.y_dot), "IDAInit");
   require(IDASetUserData(ida, equations), "IDASetUserData");
-  require(IDAWFtolerances(ida, IdasEquations::error_weights), "IDAWFtolerances");
+  set_tolerances(memory, system, equations->size());
   require(IDASetId(ida, differential.get()), "IDASetId");
   require(IDASetSuppressAlg(ida, SUNTRUE), "IDASetSuppressAlg");
   require(IDASetInitStep(ida, options.initial_step), "IDASetInitStep");

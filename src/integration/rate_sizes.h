@@ -10,10 +10,10 @@
 
 namespace codesign {
 
-/// The sizes against which errors of velocities are judged, doc/theory.md (17): of each velocity
-/// its own magnitude, of the rate of an Euler parameter the length of all four. A body that spins
-/// takes each of these through zero twice a turn, where its own magnitude says nothing, in any
-/// axes.
+/// The sizes against which the errors of velocities of a Rosenbrock step are judged: of each
+/// velocity its own magnitude, of the rate of an Euler parameter the length of all four. A body
+/// that spins takes each of these through zero twice a turn, where its own magnitude says nothing,
+/// in any axes.
 class RateSizes {
  public:
   explicit RateSizes(const Layout& layout) : euler_(to_index(layout.n), -1) {

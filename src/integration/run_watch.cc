@@ -160,7 +160,6 @@ RunLimit energy_limit(double relative_tolerance) {
 RunWatch::RunWatch(const CompiledSystem& system)
     : system_(system),
       options_(system.study().solver),
-      rate_sizes_(system.layout()),
       drift_limit_(drift_limit(options_.relative_tolerance)),
       energy_limit_(energy_limit(options_.relative_tolerance)),
       motion_(system) {}
@@ -239,15 +238,16 @@ void RunWatch::go_on(const Equations<double>& equations, const State<double>& st
 double RunWatch::drift(const State<double>& state, const VectorX<double>& position_correction,
                        const VectorX<double>& velocity_correction) const {
   double drift = 0.0;
-  const auto add = [&](double correction, double of) {
-    const double size = std::abs(correction),
-                 scale = options_.absolute_tolerance + options_.relative_tolerance * of;
-    if (size > drift * scale) drift = size / scale;  // divides only for a new maximum
+  const auto add = [&](const VectorX<double>& correction, const VectorX<double>& y) {
+    for (Eigen::Index k = 0; k < y.size(); ++k) {
+      const double size = std::abs(correction[k]),
+                   scale =
+                       options_.absolute_tolerance + options_.relative_tolerance * std::abs(y[k]);
+      if (size > drift * scale) drift = size / scale;  // divides only for a new maximum
+    }
   };
-  for (Eigen::Index k = 0; k < state.q.size(); ++k)
-    add(position_correction[k], std::abs(state.q[k]));
-  for (Eigen::Index k = 0; k < state.v.size(); ++k)
-    add(velocity_correction[k], rate_sizes_.of(state.v, k));
+  add(position_correction, state.q);
+  add(velocity_correction, state.v);
   return drift;
 }
 

@@ -6,7 +6,6 @@
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
-#include "integration/rate_sizes.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -145,7 +144,6 @@ class RunWatch {
 
   const CompiledSystem& system_;
   const SolverOptions& options_;
-  const RateSizes rate_sizes_;
   const RunLimit drift_limit_, energy_limit_;
   BodyMotion motion_;
   double end_ = 0.0;                                     ///< of the run [s]

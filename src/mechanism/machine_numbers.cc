@@ -6,6 +6,7 @@
 
 #include "codegen/number_types.h"
 #include "math/arrays.h"
+#include "mechanism/constants.h"
 #include "mechanism/motor_sides.h"
 
 namespace codesign {

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "mechanism/constants.h"
 #include "mechanism/machine_scale.h"
 
 namespace codesign {
+
+struct Topology;
+template <class T>
+struct Constants;
 
 // The numbers that neither model nor study give follow the machine, doc/theory.md (13i): the same
 // machine in other units of mass, length and time gets the same dimensionless numbers.

@@ -307,7 +307,6 @@ class PairBuilder {
     const auto evaluate = [this, &c](const FrictionNumberRule& rule, const Quantity& q, T& number) {
       const bool missing = q.is_zero();
       using M = FrictionNumberRule::Missing;
-      // set_machine_numbers() replaces those of the machine.
       if (missing && (rule.missing == M::kLengthOfOne || rule.missing == M::kOfMachine))
         number = T(1.0);
       else if (missing && rule.missing == M::kPinRadius)

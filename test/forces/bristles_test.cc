@@ -159,7 +159,9 @@ TEST(SteadyBristles, GonthierSlidesAsItDoesAfterLong) {
 TEST(SteadyBristles, AtRestTheyAreLooseAndRoundingDeflectsNothing) {
   for (const FrictionModel& model : {FrictionModel::kLuGre, FrictionModel::kGonthier}) {
     const auto c = bristle_constants<double>();
-    const auto at = [&](double u) { return model->steady.of<double>(Eigen::Vector3d(u, 0.0, 0.0), c); };
+    const auto at = [&](double u) {
+      return model->steady.of<double>(Eigen::Vector3d(u, 0.0, 0.0), c);
+    };
     EXPECT_EQ(at(0.0).zeta.norm(), 0.0) << model->name;
     EXPECT_EQ(at(0.0).dwell, 0.0);
     EXPECT_LT(at(1e-17).zeta.norm(), 1e-11);

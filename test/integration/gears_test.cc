@@ -121,7 +121,7 @@ TEST(Screw, ThatLocksItselfHoldsAndAFreeOneFalls) {
   ASSERT_LT(mu, 1.0);
   for (const char* coordinates : kBoth) {
     const std::vector<double> creeping = left_alone(kSelfLocking.urdf(), coordinates);
-    const double v_t = 0.001;  // a hundredth of the largest speed
+    const double v_t = 0.0001;  // a thousandth of the largest speed
     EXPECT_NEAR(creeping[0], -0.25 * v_t * std::atanh(mu), 1e-9) << coordinates;
     EXPECT_NEAR(creeping[2], kLoad, 1e-5 * kLoad) << coordinates;
     EXPECT_NEAR(creeping[3], kLoad, 1e-5 * kLoad) << "all of the load is held by the gear";

@@ -22,8 +22,9 @@ struct UnitSystem {
   std::string torque(double x) const { return to_decimal(x * kg * m * m / (s * s)); }
 };
 
-std::string block_of(const UnitSystem& u, const std::string& name, double mass) {
-  return "<link name='" + name + "'><inertial><origin xyz='0 0 " + u.length(-0.2) +
+/// @param arm of the centre of mass below the link frame.
+std::string block_of(const UnitSystem& u, const std::string& name, double mass, double arm) {
+  return "<link name='" + name + "'><inertial><origin xyz='0 0 " + u.length(-arm) +
          "'/><mass value='" + u.mass(mass) + "'/><inertia ixx='" + u.inertia(0.01) +
          "' ixy='0' ixz='0' iyy='" + u.inertia(0.01) + "' iyz='0' izz='" + u.inertia(0.01) +
          "'/></inertial></link>";
@@ -72,7 +73,7 @@ TEST(MachineUnits, GramsSlideAsTonnes) {
   for (const char* gravity : {"9.81", "0"}) {
     const auto at = [&](const UnitSystem& u) {
       const double g = std::stod(gravity);
-      return last_signals(robot(block_of(u, "block", 1.0) + slide_of(u, "")),
+      return last_signals(robot(block_of(u, "block", 1.0, 0.0) + slide_of(u, "")),
                           "duration: " + to_decimal(0.5 * u.s) + "\ngravity: [0, 0, " +
                               to_decimal(-g * u.m / (u.s * u.s)) +
                               "]\ninitial_state: {slide: {velocity: " + u.speed(0.4) + "}}\n" +
@@ -92,7 +93,7 @@ TEST(MachineUnits, GramsSlideAsTonnes) {
 TEST(MachineUnits, SmallGearsTurnAsLargeOnes) {
   const auto at = [](const UnitSystem& u) {
     return last_signals(
-        robot(block_of(u, "arm", 1.0) +
+        robot(block_of(u, "arm", 1.0, 0.2) +
               "<joint name='hinge' type='continuous'><parent link='ground'/><child link='arm'/>"
               "<axis xyz='0 1 0'/><codesign:actuator gear_ratio='10' rotor_inertia='" +
               u.inertia(1e-5) + "' efficiency='0.8'/></joint>"),
@@ -108,14 +109,14 @@ TEST(MachineUnits, SmallGearsTurnAsLargeOnes) {
 TEST(MachineUnits, StopsOfMicrometresHoldAsThoseOfMetres) {
   const auto at = [](const UnitSystem& u) {
     return last_signals(
-        robot(block_of(u, "block", 1.0) +
+        robot(block_of(u, "block", 1.0, 0.0) +
               slide_of(u, "lower='" + u.length(-0.05) + "' upper='" + u.length(0.1) + "'")),
         "duration: " + to_decimal(0.4 * u.s) + "\ngravity: [0, 0, " +
             to_decimal(-9.81 * u.m / (u.s * u.s)) + "]\nlimits: {position: true}\n" + solver_of(u),
         0.4 * u.s, {"slide/position"})[0];
   };
   const double usual = at({});
-  EXPECT_NEAR(usual, 0.1, 0.01);
+  EXPECT_NEAR(usual, 0.1, 0.03) << "after the first impact";
   for (const UnitSystem& u : kSystems)
     EXPECT_NEAR(at(u) / u.m / usual, 1.0, 1e-5) << u.kg << ' ' << u.m;
 }
@@ -184,9 +185,9 @@ TEST(MachineUnits, BodiesWithoutNoticeableMassSwingInAllCoordinates) {
   for (const auto& [mass, inertia, arm, time] :
        std::vector<std::tuple<std::string, std::string, std::string, double>>{
            {"1e-15", "1e-29", "1e-6", 1e-3},
-           {"1e-30", "1e-32", "0.1", 0.3},
-           {"1e-12", "1e-14", "0.1", 0.3},
-           {"1e30", "1e28", "0.1", 0.3}}) {
+           {"1e-30", "1e-34", "0.1", 0.3},
+           {"1e-12", "1e-16", "0.1", 0.3},
+           {"1e6", "1e2", "0.1", 0.3}}) {
     std::vector<double> ends;
     for (const char* solver : {"coordinates: joint", "coordinates: absolute", "integrator: idas"})
       ends.push_back(last_signals(tiny(mass, inertia, arm),

@@ -129,7 +129,7 @@ TEST(FrictionReader, InNewtonMetres) {
   EXPECT_DOUBLE_EQ(f.mu_dynamic.at(std::vector<double>{0.6}), 6.0);
   EXPECT_DOUBLE_EQ(f.mu_static.at(std::vector<double>{0.6}), 6.0) << "as coulomb";
   EXPECT_EQ(f.viscous_exponent.nominal(), 0.7);
-  EXPECT_EQ(f.transition_velocity.nominal(), 0.01) << "rad/s";
+  EXPECT_EQ(f.transition_velocity.nominal(), 0.001) << "rad/s, without any mass";
   EXPECT_FALSE(friction(kPlain).is_direct);
 
   const FrictionDescription lugre = friction(
@@ -169,7 +169,7 @@ TEST(GearReader, EfficienciesAndFrictionOfTheMotor) {
   EXPECT_EQ(g.coulomb.nominal(), 0.01);
   EXPECT_EQ(g.viscous.nominal(), 0.0);
   EXPECT_EQ(g.slip.model, FrictionModel::kBrownMcPhee);
-  EXPECT_EQ(g.slip.transition_velocity.nominal(), 0.01);
+  EXPECT_EQ(g.slip.transition_velocity.nominal(), 0.001);
   EXPECT_TRUE(g.slip.smoothing.is_zero()) << "follows the machine";
   EXPECT_FALSE(gear("viscous=\"1e-5\"")->efficiency);
   const GearDescription worm = *gear(
