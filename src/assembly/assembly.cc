@@ -16,10 +16,6 @@
 namespace codesign {
 namespace {
 
-// Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from rounded
-// angles and lengths or from an almost singular position and are ignored; if the loops do not close
-// without them, kSingularRank is tried.
-constexpr double kRank = 1e-3, kSingularRank = 1e-9;
 // [rad or m] two positions that differ by less are taken as the same.
 constexpr double kSamePlace = 0.05;
 constexpr int kNewtonIterations = 200;
@@ -54,6 +50,8 @@ Assembly::Assembly(const CompiledSystem& system)
   position_given_ = given.position;
   guess_given_ = given.guess;
   velocity_given_ = given.velocity;
+  position_beside_ = given.position_beside;
+  velocity_beside_ = given.velocity_beside;
   derivatives_.resize(system.patterns());
 }
 
@@ -103,11 +101,13 @@ void Assembly::follow_couplings(const Equations<double>& equations) {
   }
 }
 
-void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const {
-  if (lists->size() < 2) lists->resize(2);
+void Assembly::by_preference(const std::vector<bool>& given, const std::vector<bool>& beside,
+                             ColumnPreferences* lists) const {
+  if (lists->size() < 3) lists->resize(3);
   for (std::vector<int>& list : *lists) list.clear();
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = to_index(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
+    if (const auto k = to_index(c); !given[k])
+      (*lists)[follows_[k] ? 0 : beside[k] ? 2 : 1].push_back(c);
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations,
@@ -241,9 +241,10 @@ void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>&
 Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations,
                                double rank_tolerance) {
   const ColumnPreferences& preferences = work_.positions;
-  by_preference(position_given_, &work_.positions);
-  work_.open = preferences[0];
-  work_.open.insert(work_.open.end(), preferences[1].begin(), preferences[1].end());
+  prefer_positions();
+  work_.open.clear();
+  for (const std::vector<int>& list : preferences)
+    work_.open.insert(work_.open.end(), list.begin(), list.end());
   std::sort(work_.open.begin(), work_.open.end());
   work_.first = theta_;
   rank_tolerance_ = rank_tolerance;
@@ -300,7 +301,7 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   if (all_rows_count_) return {};
   // Now the enforced rows alone, to rounding: the integrators start from Phi = 0 in these rows.
   const LoopMiss miss = worst_miss_;
-  by_preference(position_given_, &work_.positions);
+  prefer_positions();
   scale_loops(parameters, *equations);
   work_.free = choose_columns(work_.positions);
   if (newton(parameters, equations, work_.free, rank_tolerance_) != Rest::kClosed || !is_near()) {
@@ -329,58 +330,6 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   follow_gears();
   if (status.ok()) place(parameters, equations, state);
   return status;
-}
-
-/// Sets work_.given to the rates that the rows of the loops and couplings have: zero but for
-/// motions that are given.
-void Assembly::find_given_rates(const Equations<double>& equations) {
-  work_.given.setZero(loops_.rows());
-  const std::vector<Coupling>& couplings = system_.topology().couplings;
-  for (std::size_t k = 0; k < couplings.size(); ++k)
-    work_.given[loops_.first_coupling_row() + static_cast<int>(k)] =
-        given_motion(equations, couplings[k]).rate;
-}
-
-Status Assembly::solve_velocities(const std::vector<double>& parameters,
-                                  Equations<double>* equations) {
-  ColumnPreferences& preferences = work_.velocities;
-  preferences.resize(3);
-  work_.not_open = velocity_given_;
-  for (std::size_t k = 0; k < position_given_.size(); ++k)
-    if (position_given_[k]) work_.not_open[k] = true;
-  by_preference(work_.not_open, &preferences);
-  for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k])
-      preferences[2].push_back(c);
-  scale_loops(parameters, *equations);
-  by_preference(position_given_, &work_.positions);
-  choose(work_.positions, &positions_);
-  choose(preferences, &velocities_);
-  work_.enforced = work_.loops.unscaled;
-  for (int c = 0; c < tree_.size; ++c)
-    for (SparseMatrix::InnerIterator entry(work_.enforced, c); entry; ++entry)
-      if (drops_[to_index(entry.row())]) entry.valueRef() *= 0.0;
-  find_given_rates(*equations);
-  work_.rows.noalias() = work_.enforced * theta_rate_;
-  work_.rows -= work_.given;
-  const Eigen::MatrixXd& step = velocities_.solve(work_.rows, &work_.scaled, &work_.solution);
-  for (std::size_t k = 0; k < velocities_.columns.size(); ++k)
-    theta_rate_[velocities_.columns[k]] -= step(to_signed(k), 0);
-  work_.left.noalias() = work_.enforced * theta_rate_;
-  work_.left -= work_.given;
-  if (work_.left.size() > 0 &&
-      !(work_.left.cwiseAbs().maxCoeff() <= 1e-9 * (1.0 + theta_rate_.cwiseAbs().maxCoeff())))
-    return contradiction();
-  return {};
-}
-
-Status Assembly::solve_velocities(const std::vector<double>& parameters,
-                                  Equations<double>* equations, State<double>* state) {
-  if (Status status = solve_velocities(parameters, equations); !status.ok()) return status;
-  const Status branch = choose_branch(parameters, equations);
-  follow_gears();
-  place(parameters, equations, state);
-  return branch.ok() ? require_rest(*state, equations) : branch;
 }
 
 Status Assembly::solve_motion(const std::vector<double>& parameters, Equations<double>* equations,

@@ -150,6 +150,10 @@ class Assembly {
   static constexpr double kClosed = 1e-12;
   // A Newton step [rad or m] below this times the mechanism's size counts as zero.
   static constexpr double kAtRest = 1e-13;
+  // Relative rank tolerances of the scaled Jacobian of the loops. Parts below kRank come from
+  // rounded angles and lengths or from an almost singular position and are ignored; if the loops do
+  // not close without them, kSingularRank is tried.
+  static constexpr double kRank = 1e-3, kSingularRank = 1e-9;
 
   struct ScaledLoops {
     SparseMatrix matrix,
@@ -180,6 +184,7 @@ class Assembly {
         near;  ///< tree coordinates to return to, of solve_positions(), close() and refine()
     VectorX<double> plain, followed, direct,
         rate;  ///< tree coordinates and rates to return to, of keep_branch() and follow()
+    VectorX<double> slope;        ///< of the way, walk()
     std::vector<double> between;  ///< a design on the way, of follow()
     Eigen::MatrixXd rows, scaled;
     ColumnPreferences positions, velocities;
@@ -197,6 +202,16 @@ class Assembly {
     VectorX<double> nudge;  ///< small guesses that every start needs [rad or m]; empty: none
   };
 
+  /// The postures of a list so far.
+  struct Postures {
+    bool is_singular = false;  ///< the last one
+    bool has_regular = false;
+    double number = 0.0;    ///< of the last regular one
+    VectorX<double> theta;  ///< its position
+    State<double> state;
+    std::size_t usual_rank = 0;  ///< most coordinates that the loops determine in any of them
+  };
+
   Status solve_positions(const std::vector<double>& parameters, Equations<double>* equations);
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
   Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters,
@@ -211,13 +226,29 @@ class Assembly {
                                      const std::vector<int>& free, double rank_tolerance);
   double largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const;
   Rest close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations);
+  Rest nearest_to_guess(Rest plain, const std::vector<double>& parameters,
+                        Equations<double>* equations);
+  void descend(const std::vector<double>& parameters, Equations<double>* equations,
+               const std::vector<int>& columns, double most);
+  std::vector<int> guessed_coordinates() const;
+  double distance_from(const VectorX<double>& start, const std::vector<int>& guessed,
+                       const VectorX<double>& levers) const;
   Rest close_from_start(const std::vector<double>& parameters, Equations<double>* equations);
   Status keep_branch(const Status& plain, const std::vector<double>& parameters,
                      Equations<double>* equations);
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);
   template <class PlaceAt, class Arrive>
-  bool walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
-            Equations<double>* equations);
+  bool walk(const std::vector<int>& free, double step, const PlaceAt& place_at,
+            const Arrive& arrive, Equations<double>* equations);
+  bool is_singular_posture(const std::vector<double>& parameters,
+                           const Equations<double>& equations);
+  void note_posture(const State<double>& state, bool is_singular);
+  std::string posture_text(const std::vector<double>& parameters) const;
+  void warn_of_singular_posture(const std::vector<double>& parameters, bool has_forces);
+  bool walk_to_posture(double to, const std::vector<double>& parameters,
+                       Equations<double>* equations, double* opens_at, State<double>* counted);
+  bool restart_posture(double to, const std::vector<double>& parameters,
+                       Equations<double>* equations, State<double>* counted);
   void count_turns(const VectorX<double>& from, const std::vector<double>& parameters,
                    Equations<double>* equations, TurnFollower<double>* turns, State<double>* state);
   /// Whether theta_ belongs to the branch of `other`.
@@ -248,13 +279,17 @@ class Assembly {
   void extend_stuck(const State<double>& start, Equations<T>* equations,
                     ExtensionWorkspace<T>* workspace, State<T>* state) const;
   Status contradiction();
+  Status forbidden();
+  double largest_rate(const VectorX<double>& rate) const;
   void place(const std::vector<double>& parameters, Equations<double>* equations,
              State<double>* state);
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Equations<double>& equations);
-  /// The first two lists of column preferences: followers, then the other coordinates that are not
-  /// given.
-  void by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const;
+  /// The first three lists of column preferences: followers, then the other coordinates that are
+  /// not given, then those of them that are `beside` given ones of the same joint.
+  void by_preference(const std::vector<bool>& given, const std::vector<bool>& beside,
+                     ColumnPreferences* lists) const;
+  void prefer_positions() { by_preference(position_given_, position_beside_, &work_.positions); }
   ReferenceMotion<double> given_motion(const Equations<double>& equations,
                                        const Coupling& coupling) const;
   void find_given_rates(const Equations<double>& equations);
@@ -294,6 +329,7 @@ class Assembly {
                                 ///< the drive of a loop
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
+  std::vector<bool> position_beside_, velocity_beside_;  ///< GivenStart
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;  ///< [s]
   double time_ = 0.0;        ///< of the positions that are sought [s]
@@ -302,6 +338,7 @@ class Assembly {
   VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none
   const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;
+  Postures postures_;
   Dependents positions_, velocities_;
   Linearization<double> derivatives_;
   /// Factored at the last solution of solve_rates(), unless that has mass factors.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "assembly/assembly.h"
+#include "assembly/assembly_walk.h"
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
@@ -21,7 +22,6 @@ constexpr double kFirstTurn = 0.5;
 constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the
                                        // start of the iteration is found
 constexpr int kMostCorrections = 12;
-constexpr double kShortest = 1.0 / 1024;  // part of the way between two designs
 
 double to_four_digits(double value) { return std::round(value * 1e4) / 1e4 + 0.0; }
 
@@ -36,8 +36,6 @@ std::string design_text(const MotionStudy& study, const std::vector<double>& par
   }
   return text + (study.tuned.size() > kMost ? ", ..." : "");
 }
-
-constexpr double kTakesPart = 1e-9;  // smaller entries of the loops' Jacobian count as zero
 
 }  // namespace
 
@@ -96,7 +94,7 @@ void Assembly::note_origin() {
   origin_.free = work_.moved;
   origin_.rank_tolerance = rank_tolerance_;
   work_.between = own_design_;
-  work_.plain = work_.followed = work_.direct = work_.rate =
+  work_.plain = work_.followed = work_.direct = work_.rate = work_.slope =
       theta_;  // of their size already, so that later designs ask for no memory
 }
 
@@ -144,7 +142,7 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
   work_.followed = origin_.theta;
   bool is_held = true;  // whether `equations` hold the design at `parameters`
   const bool reached = walk(
-      origin_.free,
+      origin_.free, 1.0,
       [&](double part) -> const std::vector<double>& {
         work_.between = parameters;
         if (part < 1.0)
@@ -157,87 +155,6 @@ bool Assembly::follow(const std::vector<double>& parameters, Equations<double>* 
       [] {}, equations);
   if (!is_held) equations->set_design(parameters);
   return reached;
-}
-
-/// Continues the position work_.followed along a line, with steps that are halved where Newton's
-/// method for the `free` coordinates does not converge at once, or to another solution than by way
-/// of the middle of the step. @param place_at (part of the way) -> the design there. @param arrive
-/// called at the end of each step, where theta_ is the solution. @returns whether the end was
-/// reached; work_.followed is the last solution.
-template <class PlaceAt, class Arrive>
-bool Assembly::walk(const std::vector<int>& free, const PlaceAt& place_at, const Arrive& arrive,
-                    Equations<double>* equations) {
-  const auto arrives = [&](double part) {
-    const std::vector<double>& design = place_at(part);
-    set_given_start(system_, tree_, design, posture_, &theta_, &theta_rate_);
-    follow_couplings(*equations);
-    return converges_at_once(design, free, equations);
-  };
-  double reached = 0.0;
-  for (double step = 1.0; reached < 1.0 && step >= kShortest && !cancelled();) {
-    const double next = std::min(1.0, reached + step);
-    theta_ = work_.followed;
-    bool is_continued = arrives(next);
-    if (is_continued && !free.empty()) {
-      work_.direct = theta_;
-      theta_ = work_.followed;
-      is_continued = arrives(0.5 * (reached + next)) && arrives(next) && is_same(work_.direct);
-      theta_ = work_.direct;
-    }
-    if (is_continued) {
-      work_.followed = theta_;
-      arrive();
-      reached = next;
-      step *= 2.0;
-    } else {
-      step *= 0.5;
-    }
-  }
-  return reached == 1.0;
-}
-
-Status Assembly::solve_next(const std::vector<double>& parameters, Equations<double>* equations,
-                            State<double>* state) {
-  warnings_.clear();
-  contradicting_.clear();
-  matrix_.reset_pivots();
-  const double from = posture_;
-  all_rows_count_ = !system_.sharing().drops();
-  work_.followed = theta_;
-  by_preference(position_given_, &work_.positions);
-  scale_loops(parameters, *equations);
-  work_.free = choose_columns(work_.positions);
-  double furthest = 0.0;
-  theta_rate_.setZero();
-  TurnFollower<double> turns(system_);
-  State<double> counted = *state;
-  VectorX<double> counted_at = theta_;
-  const bool reached = walk(
-      work_.free,
-      [&](double part) -> const std::vector<double>& {
-        time_ = posture_ = from + part;
-        furthest = part;
-        return parameters;
-      },
-      [&] {
-        count_turns(counted_at, parameters, equations, &turns, &counted);
-        counted_at = theta_;
-      },
-      equations);
-  state->t = time_ = posture_ = from + 1.0;
-  if (cancelled()) return {StatusCode::kCancelled, state->t, "cancelled"};
-  if (!reached)
-    return {StatusCode::kAssemblyFailed, state->t,
-            "loop or coupling '" + std::string(worst_miss_.owner) +
-                "' cannot be closed on the way from posture " + readable(from) + ": it opens at " +
-                readable(100.0 * furthest, 2) + " % of the way"};
-  set_extra_states(system_, parameters, &state->s);
-  state->z.setZero();
-  if (Status status = solve_velocities(parameters, equations, state); !status.ok()) return status;
-  set_turns(system_, tree_, theta_, state);
-  keep_loop_turns(counted.turns, state);
-  equations->track_turns(state);
-  return solve_rates(equations, state);
 }
 
 /// Newton's method for the `free` coordinates, from theta_. True if it converges
@@ -266,7 +183,9 @@ bool Assembly::converges_at_once(const std::vector<double>& parameters,
 /// neither position nor guess.
 Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
                                         Equations<double>* equations) {
-  const Rest plain = close_from_start(parameters, equations);
+  Rest plain = close_from_start(parameters, equations);
+  if (plain == Rest::kApart || is_own_design(parameters))
+    plain = nearest_to_guess(plain, parameters, equations);
   if (plain != Rest::kApart || !is_own_design(parameters) || origin_.nudge.size() > 0) return plain;
   constexpr double kNudge = 0.01;  // [rad], or this part of the loop's longest lever
   const VectorX<double> start = work_.start, apart = theta_;
@@ -340,29 +259,6 @@ void Assembly::warn_of_branch(const char* code, const std::string& message,
                   "initial_state, loop '" + loop + "'",
                   message + ", write initial_state: {" + guesses_for(theta, moved) + "}",
                   design_text(system_.study(), parameters), ""}));
-}
-
-// The message names the joints with a given velocity that appear in a violated row.
-Status Assembly::contradiction() {
-  const VectorX<double>& left = work_.left;
-  const double most = left.cwiseAbs().maxCoeff();
-  std::string joints, loop;
-  const std::vector<InitialJointState>& given = system_.study().initial_state;
-  for (std::size_t k = 0; k < given.size(); ++k) {
-    const int joint = tree_joint(system_.robot(), given[k]);
-    if (joint < 0 || !given[k].velocity) continue;
-    for (Eigen::Index row = 0; row < left.size(); ++row) {
-      if (std::abs(left[row]) < 1e-3 * most) continue;
-      loop = loops_.owner(static_cast<int>(row));
-      if (std::abs(work_.enforced.coeff(row, tree_.offset[to_index(joint)])) < kTakesPart) continue;
-      joints += (joints.empty() ? "'" : ", '") + given[k].joint + "'";
-      contradicting_.push_back(k);
-      break;
-    }
-  }
-  return {StatusCode::kInitialVelocityFailed, 0.0,
-          "the given initial velocities of " + joints +
-              " contradict each other: loop or coupling '" + loop + "' cannot follow them"};
 }
 
 }  // namespace codesign

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "assembly/assembly.h"
+#include "assembly/friction_jam.h"
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
 #include "equations/iteration_matrix.h"
@@ -50,10 +51,11 @@ Status Assembly::solve_rates(Equations<double>* equations, State<double>* state)
     if (size < 1e-15 || (size < converged && size >= 0.5 * previous)) return {};
     previous = size;
   }
-  return {
-      StatusCode::kInitialReactionsFailed, state->t,
-      std::string("no accelerations and reactions satisfy the equations of motion with friction") +
-          place};
+  const std::string jam = jam_advice(system_, *state, equations);
+  return {StatusCode::kInitialReactionsFailed, state->t,
+          std::string("no accelerations and reactions satisfy the equations of motion") + place +
+              (jam.empty() ? ": the position may be a singular one; start from another" : ": ") +
+              jam};
 }
 
 void Assembly::solve_at_rates(Out<double> x) const {

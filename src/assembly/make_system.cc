@@ -5,13 +5,14 @@
 #include <optional>
 
 #include "assembly/assembly.h"
+#include "assembly/change_point.h"
 #include "assembly/determined_motion.h"
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
+#include "assembly/start_beyond_stop.h"
 #include "description/study.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
-#include "mechanism/loop_plane.h"
 #include "mechanism/signal_catalog.h"
 #include "text/number_text.h"
 
@@ -108,49 +109,6 @@ bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 
-std::string name_list(const RobotDescription& robot, const std::vector<int>& joints) {
-  std::string text;
-  for (int joint : joints)
-    text += (text.empty() ? "'" : ", '") + robot.joints[to_index(joint)].name + "'";
-  return text;
-}
-
-/// That the loops may be held in their plane, if this determines all reactions: if all loops that
-/// share them are planar.
-std::string plane_advice(const CompiledSystem& system, const ReactionSharing& sharing) {
-  std::vector<int> loops;
-  for (int p : sharing.pairs) {
-    const Pair& pair = system.topology().pairs[to_index(p)];
-    if (!pair.is_loop) continue;
-    if (!could_be_in_plane(system.robot(), system.topology(), pair, system.parameters())) return "";
-    loops.push_back(pair.chain[0].joint);
-  }
-  return "; or, as the motion is planar, leave what acts out of the plane to the joints of "
-         "the tree by codesign:out_of_plane=\"zero\" on " +
-         name_list(system.robot(), loops);
-}
-
-/// What removes the warning below, checked by the rank of the constraints that remain.
-std::string advice_text(const RobotDescription& robot, const std::vector<Release>& releases) {
-  if (releases.empty())
-    return "no freedoms as codesign:spherical or codesign:cylindrical in place of hinges and "
-           "slides determine all of it; give the loops "
-           "joints of other types";
-  std::string text;
-  bool in_tree = false;
-  for (const Release& release : releases) {
-    const JointDescription& joint = robot.joints[to_index(release.joint)];
-    in_tree = in_tree || !joint.is_loop;
-    text += (text.empty() ? "'" : " and '") + joint.name + "' as codesign:" +
-            (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
-  }
-  return "to remove the warning, give the freedom that bearings have in reality to " + text +
-         ": this determines all of it, and none of them can be left out" +
-         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound "
-                    "joint)"
-                  : "");
-}
-
 /// Warns of friction that depends on reactions that rigid bodies do not determine. @param system
 /// with the sharing that was chosen.
 Warning undetermined_friction(const CompiledSystem& system, const Redundancy& redundancy) {
@@ -175,7 +133,7 @@ Warning undetermined_friction(const CompiledSystem& system, const Redundancy& re
   return warn(
       "undetermined_friction",
       {first.where, first.element(),
-       message + advice_text(robot, releases) + plane_advice(system, redundancy.sharing), "", ""});
+       message + advice_of(robot, releases) + plane_advice(system, redundancy.sharing), "", ""});
 }
 
 /// Between the steps of idas a compliance of 1e-9 turns violations of redundant rows, which are
@@ -207,6 +165,26 @@ std::optional<Redundancy> find_sharing(const CompiledSystem& system, StartWorksp
   return redundancy;
 }
 
+/// A compliance of all loops where a given motion passes a position in which several motions meet,
+/// with a warning; else nothing. Without it the equations are singular there.
+std::optional<ReactionSharing> find_change_point(const CompiledSystem& system, Warnings* warnings) {
+  StartWorkspace start(system, system.parameters());
+  if (system.study().motion.empty() || !start.solve_positions().ok()) return std::nullopt;
+  const std::optional<double> time = first_change_point(system, &start);
+  if (!time) return std::nullopt;
+  const GivenMotion& motion = system.study().motion.front();
+  append({warn("change_point",
+               {motion.where, "motion." + motion.joint,
+                "the given motion passes a singular position, such as a linkage that lies flat, "
+                "where several motions of its loops meet; the run goes on along the motion before "
+                "it, with a compliance of the loops of 1e-9 over their mean mass, and efforts and "
+                "reactions are not determined in the position itself; end the study before it to "
+                "silence this",
+                "near t = " + readable(*time, 3) + " s", ""})},
+         warnings);
+  return ReactionSharing(compliance_of(start.equations));
+}
+
 /// The same study in absolute coordinates, for couplings that imply each other: the reactions of
 /// all joints between them are shared, (23).
 /// @throws InputError if the study asks for joint coordinates.
@@ -233,6 +211,7 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   require_free_drives(*system, start.parameters, start.assembly, start.equations);
   require_start(*system, start.assembly, positions);
   append(start.assembly.warnings(), &found);
+  if (positions.ok()) append(starts_beyond_stops(*system, start.state, &start.equations), &found);
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   if (const Layout& layout = system->layout(); layout.has_forest()) {
     const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly,
@@ -251,6 +230,9 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   if (redundancy)
     result = std::make_shared<const CompiledSystem>(system->robot(), system->whole_study(),
                                                     redundancy->sharing);
+  else if (const std::optional<ReactionSharing> yields = find_change_point(*system, &found))
+    result =
+        std::make_shared<const CompiledSystem>(system->robot(), system->whole_study(), *yields);
   if (result->sharing().drops()) {
     // With fewer rows enforced, other positions can start, and other velocities contradict.
     StartWorkspace enforced(*result, result->parameters());

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
 #include "math/arrays.h"
 #include "math/dense.h"
+#include "mechanism/loop_plane.h"
 #include "mechanism/signal_catalog.h"
 
 namespace codesign {
@@ -34,6 +36,10 @@ class Search {
       for (int pair : redundancy.sharing.pairs) add_candidates(pair, loops, state, equations);
     find_friction_rows(redundancy);
   }
+
+  /// What shall be determined in place of friction: rows that are zero for a self-stress which does
+  /// not change it, one column per self-stress of the basis.
+  void determine(Eigen::MatrixXd rows) { friction_ = std::move(rows); }
 
   std::vector<Release> smallest() const {
     if (basis_.cols() == 0) return {};
@@ -156,7 +162,7 @@ class Search {
   const CompiledSystem& system_;
   const Eigen::MatrixXd& basis_;
   std::vector<Candidate> candidates_;
-  Eigen::MatrixXd friction_;  ///< rows of the basis that friction depends on
+  Eigen::MatrixXd friction_;  ///< rows of the basis that friction depends on, or determine()
 };
 
 /// Random weights of the reactions, one for the force and one for the torque of each pair, so that
@@ -177,7 +183,70 @@ Eigen::VectorXd stiffness_weights(const CompiledSystem& system, std::mt19937* ge
   return weights;
 }
 
+/// By how much each self-stress of the basis changes the reactions that the open signals read: one
+/// row per term.
+Eigen::MatrixXd reaction_rows(const CompiledSystem& system, const Redundancy& redundancy,
+                              State<double> state, const std::vector<Signal>& signals,
+                              const std::vector<std::size_t>& open, Equations<double>* equations) {
+  std::vector<SignalReference> terms;
+  for (std::size_t k : open)
+    for (const SignalReference& term : signals[k])
+      if (term.kind == SignalKind::kReactionForce || term.kind == SignalKind::kReactionTorque)
+        terms.push_back(term);
+  Eigen::MatrixXd rows(to_signed(terms.size()), redundancy.basis.cols());
+  state.z.setZero(system.layout().columns());
+  for (Eigen::Index column = 0; column < rows.cols(); ++column) {
+    state.z.segment(system.layout().n, system.layout().constraints()) =
+        redundancy.basis.col(column);
+    equations->formulas().load(state);
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      rows(to_signed(k), column) = equations->formulas().multiplier_reaction(terms[k]);
+  }
+  return rows;
+}
+
 }  // namespace
+
+std::string name_list(const RobotDescription& robot, const std::vector<int>& joints) {
+  std::string text;
+  for (int joint : joints)
+    text += (text.empty() ? "'" : ", '") + robot.joints[to_index(joint)].name + "'";
+  return text;
+}
+
+std::string plane_advice(const CompiledSystem& system, const ReactionSharing& sharing) {
+  std::vector<int> loops;
+  for (int p : sharing.pairs) {
+    const Pair& pair = system.topology().pairs[to_index(p)];
+    if (!pair.is_loop) continue;
+    if (!could_be_in_plane(system.robot(), system.topology(), pair, system.parameters())) return "";
+    loops.push_back(pair.chain[0].joint);
+  }
+  if (loops.empty()) return "";
+  return "; or, as the motion is planar, leave what acts out of the plane to the joints of "
+         "the tree by codesign:out_of_plane=\"zero\" on " +
+         name_list(system.robot(), loops);
+}
+
+std::string advice_of(const RobotDescription& robot, const std::vector<Release>& releases) {
+  if (releases.empty())
+    return "no freedoms as codesign:spherical or codesign:cylindrical in place of hinges and "
+           "slides determine all of it; give the loops "
+           "joints of other types";
+  std::string text;
+  bool in_tree = false;
+  for (const Release& release : releases) {
+    const JointDescription& joint = robot.joints[to_index(release.joint)];
+    in_tree = in_tree || !joint.is_loop;
+    text += (text.empty() ? "'" : " and '") + joint.name + "' as codesign:" +
+            (release.type == JointType::kSpherical ? "spherical" : "cylindrical");
+  }
+  return "to remove the warning, give the freedom that bearings have in reality to " + text +
+         ": this determines all of it, and none of them can be left out" +
+         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound "
+                    "joint)"
+                  : "");
+}
 
 std::vector<Release> releases_for_friction(const CompiledSystem& system,
                                            const Redundancy& redundancy, const State<double>& state,
@@ -236,14 +305,19 @@ Warnings warn_of_open_reactions(const CompiledSystem& system, const Redundancy& 
     resolved.push_back(resolve_signal(signal, system.robot(), system.topology(),
                                       system.study().controllers, system.study().parameters));
   Warnings warnings;
-  for (std::size_t k : open_reactions(system, redundancy, state, resolved, equations))
+  const std::vector<std::size_t> open =
+      open_reactions(system, redundancy, state, resolved, equations);
+  if (open.empty()) return warnings;
+  Search search(system, redundancy, state, equations);
+  search.determine(reaction_rows(system, redundancy, state, resolved, open, equations));
+  const std::string advice =
+      advice_of(system.robot(), search.smallest()) + plane_advice(system, redundancy.sharing);
+  for (std::size_t k : open)
     append({warn("undetermined_reaction",
                  {signals[k].where, "signal",
                   "the signal reads a reaction that is not unique, because the loop has redundant "
-                  "constraints; "
-                  "the one of least norm is used; to remove the warning, give one joint of the "
-                  "loop the freedom "
-                  "that it has in reality, as codesign:spherical or codesign:cylindrical",
+                  "constraints; the one of least norm is used; " +
+                      advice,
                   signals[k].text, ""})},
            &warnings);
   return warnings;

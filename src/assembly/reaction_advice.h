@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "assembly/redundancy.h"
@@ -27,6 +28,17 @@ struct Release {
 std::vector<Release> releases_for_friction(const CompiledSystem& system,
                                            const Redundancy& redundancy, const State<double>& state,
                                            Equations<double>* equations);
+
+/// What removes a warning of reactions that are not unique, checked by the rank of the constraints
+/// that remain.
+std::string advice_of(const RobotDescription& robot, const std::vector<Release>& releases);
+
+/// That the loops may be held in their plane, which determines all reactions, if all loops that
+/// share them are planar; else empty.
+std::string plane_advice(const CompiledSystem& system, const ReactionSharing& sharing);
+
+/// The names of joints: 'a', 'b'.
+std::string name_list(const RobotDescription& robot, const std::vector<int>& joints);
 
 /// By how much other distributions of the reactions than that of least norm change the normal
 /// forces of Redundancy::chosen_joints, relative to the largest of these. Each distribution has the

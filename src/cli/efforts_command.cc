@@ -79,8 +79,9 @@ int efforts(const Arguments& arguments, const Console& console) {
     object["unreachable"] = summary.unreachable;
     object["series"] = output.json();
   }
-  add_warnings(arguments, problem, warn_of_open_reactions(*system_of(problem), signals), &object,
-               console);
+  Warnings warnings = summary.warnings;
+  append(warn_of_open_reactions(*system_of(problem), signals), &warnings);
+  add_warnings(arguments, problem, warnings, &object, console);
   return finish(arguments, summary.status, std::move(object), console);
 }
 

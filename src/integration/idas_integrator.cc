@@ -234,8 +234,8 @@ Status IdasIntegrator::advance(double limit) {
   if (cancelled()) return {StatusCode::kCancelled, state_.t, "cancelled"};
   const double before = state_.t;
   const Status status = take_step(limit);
-  return judge_standstill(status, system_, initial_, state_, state_.t - before, statistics_,
-                          &equations());
+  return judge_standstill(watch_.judge_failure(status, state_), system_, initial_, state_,
+                          state_.t - before, statistics_, &equations());
 }
 
 Status IdasIntegrator::take_step(double limit) {

@@ -265,8 +265,8 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
   const auto judged = [&](const Status& status) {
     if (Status undefined = mode_watch_.undefined_guard(t); !status.ok() && !undefined.ok())
       return undefined;
-    return judge_standstill(status, system_, initial_, step_.state(), step_.step_size(),
-                            statistics_, &step_.equations());
+    return judge_standstill(watch_.judge_failure(status, step_.state()), system_, initial_,
+                            step_.state(), step_.step_size(), statistics_, &step_.equations());
   };
   for (;;) {
     if (statistics_.steps + statistics_.rejected_steps >= options_.maximum_steps)
@@ -279,7 +279,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
     if (!(h >= smallest))
       return judged(singular
                         ? Status{StatusCode::kSingularMatrix, t,
-                                 "the equations of motion become singular: a dead point or lock-up"}
+                                 singular_sentence(system_, step_.state(), &step_.equations())}
                         : Status{StatusCode::kStepSizeTooSmall, t,
                                  "the step size fell below " + std::to_string(smallest * 1e12) +
                                      " ps: the motion is not resolvable"});

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "assembly/determined_motion.h"
+#include "assembly/friction_jam.h"
 #include "control/reference.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
@@ -257,17 +258,37 @@ void MotionWatch::start(const Equations<double>& equations, const State<double>&
   mark_work_ = 0;
   motion_.set_design(equations);
   linear_bound_ = angular_bound_ = system_.study().solver.maximum_speed;
-  // A mechanism without controllers cannot gain energy, so it needs no automatic limit.
-  if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;
   double size = 0.0;
   motion_.move(initial.q, initial.v);
   for (int b = 0; b < system_.layout().bodies; ++b)
     size = std::max(size, motion_.distance(b, initial.q));
   const double g = Eigen::Vector3d(system_.study().gravity.data()).norm(), aim = target(equations);
   const Speeds begun = speeds(initial);
-  linear_bound_ = kBeyondReason * std::max({begun.linear, aim, std::sqrt(2.0 * g * size)});
-  angular_bound_ =
-      kBeyondReason * std::max({begun.angular, aim, size > 0.0 ? std::sqrt(2.0 * g / size) : 0.0});
+  typical_linear_ = std::max({begun.linear, aim, std::sqrt(2.0 * g * size)});
+  typical_angular_ = std::max({begun.angular, aim, size > 0.0 ? std::sqrt(2.0 * g / size) : 0.0});
+  // A mechanism without controllers cannot gain energy but from loads, so it needs no automatic
+  // limit.
+  if (linear_bound_ > 0.0 || system_.study().controllers.empty()) return;
+  linear_bound_ = kBeyondReason * typical_linear_;
+  angular_bound_ = kBeyondReason * typical_angular_;
+}
+
+Status MotionWatch::judge_failure(const Status& status, const State<double>& state) const {
+  constexpr double kRunaway = 1e4;
+  const bool may_be = may_be_singular(status.code) || status.code == StatusCode::kNonFinite;
+  if (status.ok() || !may_be || !system_.study().motion.empty()) return status;
+  const double usual = 1.0 / std::max(system_.study().duration, 1e-3);
+  const Speeds now = speeds(state);
+  const bool turns = !(now.angular <= kRunaway * std::max(typical_angular_, usual)),
+             moves = !(now.linear <= kRunaway * std::max(typical_linear_, usual));
+  if (!turns && !moves) return status;
+  const int body = turns ? now.angular_body : now.linear_body;
+  return {StatusCode::kUnstableMotion, state.t,
+          "the motion runs away: link '" + system_.topology().bodies[to_index(body)].name + "' " +
+              (turns ? "turns at " + readable(now.angular, 3) + " rad/s"
+                     : "moves at " + readable(now.linear, 3) + " m/s") +
+              ", until the solver fails; check loads and controllers that grow with the motion, "
+              "and their signs"};
 }
 
 double MotionWatch::expected_work(double time, std::int64_t work) const {
@@ -326,6 +347,13 @@ Status judge_standstill(const Status& status, const CompiledSystem& system,
   const bool all_lose_rank =
       singular_value(all, rank) <= 2.0 * limit * singular_value(before, rank);
   return {StatusCode::kSingularConfiguration, state.t, cause(system, rows, all_lose_rank)};
+}
+
+std::string singular_sentence(const CompiledSystem& system, const State<double>& state,
+                              Equations<double>* equations) {
+  const std::string jam = jam_advice(system, state, equations);
+  return "the equations of motion become singular: a dead point or lock-up" +
+         (jam.empty() ? "" : "; perhaps " + jam);
 }
 
 std::string find_not_finite(const FrameNames& names, const Frame& frame) {

@@ -31,6 +31,10 @@ class MotionWatch {
   /// To be called after each step. @param work number of steps so far, rejected ones included.
   /// @returns kUnstableMotion, or ok.
   Status check(const State<double>& state, std::int64_t work);
+  /// What a failure of the solver means where the motion has run away, as under a load that grows
+  /// with it: kUnstableMotion if bodies are ten thousand times as fast as is typical, unless a
+  /// given motion, which does any work, drives them; else `status`.
+  Status judge_failure(const Status& status, const State<double>& state) const;
 
  private:
   struct Speeds {
@@ -45,6 +49,7 @@ class MotionWatch {
   const CompiledSystem& system_;
   BodyMotion motion_;
   double linear_bound_ = 0.0, angular_bound_ = 0.0;
+  double typical_linear_ = 0.0, typical_angular_ = 0.0;  ///< [m/s], [rad/s]
   double mark_time_ = 0.0;
   std::int64_t mark_work_ = 0;
 };
@@ -64,6 +69,11 @@ class MotionWatch {
 Status judge_standstill(const Status& status, const CompiledSystem& system,
                         const State<double>& initial, const State<double>& state, double step_size,
                         const Statistics& statistics, Equations<double>* equations);
+
+/// The sentence for a run whose matrix becomes singular, with the joints that rub and may have
+/// jammed. @param equations must hold the design.
+std::string singular_sentence(const CompiledSystem& system, const State<double>& state,
+                              Equations<double>* equations);
 
 /// A sentence that names the first joint, friction, controller, link or signal of a frame with a
 /// value that is not finite; empty if there is none.

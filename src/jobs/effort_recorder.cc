@@ -11,6 +11,7 @@
 #include "statics/posture_efforts.h"
 #include "statics/setpoint_motion.h"
 #include "text/cancel.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -129,6 +130,50 @@ std::vector<DriveNeeds> posture_needs(const PostureGrid& grid) {
   return drives;
 }
 
+/// The postures of a grid one after the other, each found from the one before; beyond a singular
+/// posture, and where the way to the next one is barred, from the study's guesses.
+class PostureRow {
+ public:
+  explicit PostureRow(PostureStatics* statics) : statics_(*statics) {}
+
+  Status show(const Eigen::VectorXd& positions, Frame* frame, std::vector<PostureEffort>* efforts) {
+    const bool was_singular = is_singular_, was_shown = is_shown_;
+    Status status;
+    if (!has_begun_ || was_singular) status = begin(positions);
+    if (has_begun_) status = statics_.show(positions, frame, efforts);
+    if (!status.ok() && was_shown && !was_singular && begin(positions).ok())
+      status = statics_.show(positions, frame, efforts);
+    is_shown_ = status.ok();
+    is_singular_ = has_begun_ && statics_.is_singular();
+    return status;
+  }
+  bool is_singular() const { return is_singular_; }
+
+ private:
+  Status begin(const Eigen::VectorXd& positions) {
+    Status status = statics_.begin(positions);
+    has_begun_ = has_begun_ || status.ok();
+    return status;
+  }
+
+  PostureStatics& statics_;
+  bool has_begun_ = false, is_shown_ = false, is_singular_ = false;
+};
+
+Warning singular_posture(const PostureGrid& grid, std::size_t first, std::size_t count) {
+  const Eigen::VectorXd at = posture(grid, first);
+  std::string text;
+  for (std::size_t k = 0; k < grid.size(); ++k)
+    text += (k > 0 ? ", " : "") + grid[k].joint + " = " + readable(at[to_signed(k)]);
+  return warn("singular_posture",
+              {grid.front().where, "efforts.grid",
+               "at a dead centre, or where several motions meet, the joints of the grid do not "
+               "determine how the mechanism moves on, and no effort of theirs moves it; postures "
+               "beyond it are found from the study's guesses; choose postures beside it to silence "
+               "this",
+               text + (count > 1 ? ", and " + std::to_string(count - 1) + " more" : ""), ""});
+}
+
 EffortSummary record_postures(const Problem& problem, const std::vector<double>& parameters,
                               const std::vector<SignalDescription>& signals, const RowSink& sink,
                               const std::atomic<bool>* cancel) {
@@ -139,15 +184,15 @@ EffortSummary record_postures(const Problem& problem, const std::vector<double>&
   std::vector<PostureEffort> efforts;
   Status last;
   Frame frame;
-  bool has_begun = false;
+  PostureRow in_turn(&statics);
+  std::size_t singular = 0, first_singular = 0;
   const std::size_t columns = effort_columns(problem, signals).size();
   for (std::size_t k = 0; k < count_postures(grid); ++k) {
     if (is_set(cancel)) summary.status = {StatusCode::kCancelled, 0.0, "cancelled"};
     if (!summary.status.ok()) return summary;
     const Eigen::VectorXd positions = posture(grid, k);
-    if (!has_begun) last = statics.begin(positions);
-    has_begun = has_begun || last.ok();
-    if (has_begun) last = statics.show(positions, &frame, &efforts);
+    last = in_turn.show(positions, &frame, &efforts);
+    if (in_turn.is_singular() && singular++ == 0) first_singular = k;
     std::vector<double> row = list_of(positions);
     const std::vector<double> at = row;
     if (last.ok()) {
@@ -168,6 +213,7 @@ EffortSummary record_postures(const Problem& problem, const std::vector<double>&
     ++summary.rows;
   }
   if (summary.unreachable == summary.rows) summary.status = last;
+  if (singular > 0) summary.warnings.push_back(singular_posture(grid, first_singular, singular));
   return summary;
 }
 

@@ -10,6 +10,7 @@
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
 #include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -37,6 +38,7 @@ struct EffortSummary {
   std::size_t rows = 0, unreachable = 0;  ///< rows in all; postures that the loops do not allow
   std::vector<DriveNeeds> drives;
   std::vector<LimitCrossing> crossings;  ///< along a motion
+  Warnings warnings;                     ///< `singular_posture`
 };
 
 /// The columns of record_efforts(): along a motion `time` and of each given joint position,

@@ -99,7 +99,12 @@ Status PostureStatics::show(const Eigen::VectorXd& positions, Frame* frame,
                             std::vector<PostureEffort>* efforts) {
   const Eigen::VectorXd still = Eigen::VectorXd::Zero(positions.size());
   const Eigen::VectorXd given[] = {positions, still, still};
-  if (Status status = replay_.show(0.0, given, frame); !status.ok()) return status;
+  is_singular_ = false;
+  if (Status status = replay_.show(0.0, given, frame); !status.ok()) {
+    is_singular_ = status.code == StatusCode::kSingularMatrix;
+    return status;
+  }
+  is_singular_ = replay_.is_singular();
   efforts->assign(drives().size(), {});
   for (std::size_t k = 0; k < efforts->size(); ++k) {
     PostureEffort& effort = (*efforts)[k];
@@ -108,6 +113,7 @@ Status PostureStatics::show(const Eigen::VectorXd& positions, Frame* frame,
     // A solution in which friction would drive the motion belongs to no effort: where friction
     // grows faster than the effort that overcomes it, the mechanism locks.
     const auto end = [&](double direction) {
+      if (is_singular_) return direction * std::numeric_limits<double>::infinity();
       const double slip = slipping(positions, k, direction);
       const bool opposes = direction * (slip - effort.rest) >= -rounding;
       return opposes ? slip : direction * std::numeric_limits<double>::infinity();

@@ -43,6 +43,10 @@ class PostureStatics {
 
   /// Assembles the mechanism near a posture. Call it before the first posture.
   Status begin(const Eigen::VectorXd& positions) { return replay_.begin(positions); }
+  /// Whether the grid's joints do not determine how the mechanism moves on from the posture that
+  /// show() has shown last: a dead centre, or a posture where several motions meet. No effort moves
+  /// it from there.
+  bool is_singular() const { return is_singular_; }
   /// @param frame at rest, without friction. @param efforts one per drive.
   Status show(const Eigen::VectorXd& positions, Frame* frame, std::vector<PostureEffort>* efforts);
 
@@ -52,6 +56,7 @@ class PostureStatics {
   const CompiledSystem sliding_;  ///< the mechanism with static friction at any speed
   DrivenReplay replay_;
   Frame frame_;
+  bool is_singular_ = false;
 };
 
 }  // namespace codesign

@@ -189,5 +189,29 @@ TEST(CountEquations, EachParameterHasItsSensitivities) {
   EXPECT_EQ(counts.degrees_of_freedom, 1);
 }
 
+// The advice is followed: with the joints as it says, nothing is undetermined any more.
+TEST(MakeSystem, TheAdviceOfUndeterminedReactionsDeterminesThem) {
+  const auto warnings = [](const std::string& urdf) {
+    return warnings_of(urdf, let_go("{left_hinge: {position: 0.6}}", "right_pin/reaction_force/y"));
+  };
+  const Warnings found = warnings(four_bar());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].code, "undetermined_reaction");
+  const std::string& message = found[0].message;
+  EXPECT_NE(message.find("'right_pin' as codesign:cylindrical"), std::string::npos) << message;
+  EXPECT_NE(message.find("by codesign:out_of_plane=\"zero\" on 'right_pin'"), std::string::npos)
+      << message;
+  const auto with_loop = [](const std::string& type) {
+    std::string urdf = four_bar();
+    const std::string from = "<loop name='right_pin' type='continuous'>";
+    urdf.replace(urdf.find(from), from.size(), "<loop name='right_pin' type='" + type + "'>");
+    return urdf;
+  };
+  EXPECT_TRUE(warnings(with_loop("codesign:cylindrical")).empty());
+  // A ball leaves the thrust undetermined, which the former advice allowed.
+  EXPECT_EQ(warnings(with_loop("codesign:spherical")).size(), 1U);
+  EXPECT_TRUE(warnings(held_in_plane(four_bar())).empty());
+}
+
 }  // namespace
 }  // namespace codesign

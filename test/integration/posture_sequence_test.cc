@@ -211,5 +211,60 @@ TEST(PostureSequence, RefusesToHoldWhatHasNoPostures) {
       InputError);
 }
 
+/// A parallelogram of cranks of 0.1 m, 0.3 m apart along x: flat where they lie along x.
+std::string change_point(const std::string& out_of_plane) {
+  const auto link = [](const std::string& name, const std::string& at) {
+    return "<link name='" + name + "'><inertial><origin xyz='" + at +
+           "'/><mass value='1'/><inertia ixx='0.001' ixy='0' ixz='0' iyy='0.001' iyz='0' "
+           "izz='0.001'/></inertial></link>";
+  };
+  const auto pin = [](const std::string& name, const std::string& parent, const std::string& child,
+                      const std::string& at) {
+    return "<joint name='" + name + "' type='continuous'><parent link='" + parent +
+           "'/><child link='" + child + "'/><origin xyz='" + at + "'/><axis xyz='0 1 0'/></joint>";
+  };
+  return "<robot name='r' xmlns:codesign='urn:mechanism_codesign'><link name='g'/>" +
+         link("cr", "0 0 0.05") + link("co", "0.1 0 0") + link("fo", "0 0 0.05") +
+         pin("crank", "g", "cr", "0 0 0") + pin("knee", "cr", "co", "0 0 0.1") +
+         pin("foll", "g", "fo", "0.3 0 0") + "<loop name='pin' type='revolute'" + out_of_plane +
+         "><predecessor link='co'><origin xyz='0.3 0 0'/></predecessor><successor "
+         "link='fo'><origin xyz='0 0 0.1'/></successor><axis xyz='0 1 0'/></loop></robot>";
+}
+
+Problem change_points(const std::string& angles, const std::string& out_of_plane) {
+  return load_problem({"change_point.urdf", change_point(out_of_plane)}, {},
+                      {"postures.yaml", "positions: {crank: " + angles +
+                                            "}\ninitial_state: {foll: {guess: 0.3}}\n"});
+}
+
+// The follower turns with the crank on both sides of the flat postures, which are between two of
+// the list.
+TEST(PostureSequence, AParallelogramGoesOnBeyondItsFlatPosture) {
+  for (const char* out_of_plane : {" codesign:out_of_plane='zero'", ""})
+    for (const char* angles : {"{from: 0.3, to: 6.5, count: 25}", "{from: 0.3, to: 6.5, count: 7}",
+                               "[1.5, 1.6, 1.5, 1.6]"}) {
+      const Recorded run =
+          record(change_points(angles, out_of_plane), {"crank/position", "foll/position"});
+      ASSERT_TRUE(run.status.ok()) << angles << out_of_plane << ": " << run.status.cause;
+      for (const std::vector<double>& at : run.signals)
+        EXPECT_NEAR(at[0], at[1], 1e-4) << angles << out_of_plane;
+    }
+}
+
+TEST(PostureSequence, ASingularPostureIsNamed) {
+  const auto named = [](const std::string& angles) {
+    const Recorded run = record(change_points(angles, " codesign:out_of_plane='zero'"),
+                                {"crank/position", "foll/position"});
+    EXPECT_TRUE(run.status.ok()) << run.status.cause;
+    std::string text;
+    for (const Warning& warning : run.warnings)
+      if (warning.code == "singular_posture") text += warning.message;
+    return text;
+  };
+  const std::string flat = named("[0.3, 1.5707963267948966, 2.0]");
+  EXPECT_NE(flat.find("posture 1 (crank = 1.570796327)"), std::string::npos) << flat;
+  EXPECT_EQ(named("[0.3, 1.5, 1.7]"), "") << "beside it";
+}
+
 }  // namespace
 }  // namespace codesign

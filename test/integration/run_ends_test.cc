@@ -212,6 +212,25 @@ TEST(RunEnds, ARunReachesItsEndABitBehindAnEvent) {
       }
 }
 
+// A load that grows with the square of the velocity has no motion beyond 0.2 s: the step becomes
+// too short, but the cause is the load.
+TEST(MotionWatch, ALoadThatRunsAwayIsNoDeadPoint) {
+  for (const char* integrator : {"rosenbrock", "idas"}) {
+    const std::string study =
+        std::string(
+            "duration: 10\ngravity: [0, 0, 0]\nloads: [{joint: hinge, effort: \"${5*hinge/"
+            "velocity^3}\"}]\ninitial_state: {hinge: {velocity: 1}}\nsolver: {integrator: ") +
+        integrator + "}\n";
+    const auto system = compile(pendulum(), study);
+    const auto run = make_integrator(*system);
+    Status status = run->start(system->parameters());
+    while (status.ok() && run->state().t < 10.0) status = run->advance(10.0);
+    EXPECT_EQ(status.code, StatusCode::kUnstableMotion) << integrator << ": " << status.cause;
+    for (const char* part : {"'bar'", "runs away", "loads"})
+      EXPECT_NE(status.cause.find(part), std::string::npos) << integrator << ": " << status.cause;
+  }
+}
+
 }  // namespace
 
 }  // namespace codesign

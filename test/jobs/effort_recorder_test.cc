@@ -2,6 +2,7 @@
 #include "jobs/effort_recorder.h"
 
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "statics/statics_cases.h"
@@ -196,6 +197,49 @@ TEST(EffortRecorder, WritesNeedsAsJson) {
   EXPECT_EQ(object["hinge"]["effort"]["value"], -2.0);
   EXPECT_EQ(object["hinge"]["effort"]["at"][0], 0.5);
   EXPECT_EQ(object["hinge"]["rms_effort"], 1.0);
+}
+
+/// A press: a crank of 0.1 m, a rod of 0.3 m and a slider along z, driven at the slider.
+std::string driven_press() {
+  const std::string end = "<limit lower=\"-1\" upper=\"1\" effort=\"1e6\" velocity=\"10\"/>";
+  return R"(<robot name="press" xmlns:codesign="urn:mechanism_codesign"><link name="base"/>)" +
+         body("crank", 1.0, "0 0 0.05") + body("rod", 1.0, "0 0 0.15") + body("slider", 2.0) +
+         joint("crank_joint", "continuous", "base", "crank", "0 0 0", "0 1 0") +
+         joint("knee", "continuous", "crank", "rod", "0 0 0.1", "0 1 0") +
+         joint("slide", "prismatic", "base", "slider", "0 0 0", "0 0 1", end) +
+         R"(<loop name="pin" type="revolute" codesign:out_of_plane="zero"><predecessor link="rod">
+            <origin xyz="0 0 0.3"/></predecessor><successor link="slider"/><axis xyz="0 1 0"/></loop>
+            </robot>)";
+}
+
+// At 0.4 m crank and rod are in line: a dead centre.
+TEST(EffortRecorder, TheOrderOfPosturesAroundADeadCentreDoesNotMatter) {
+  const auto efforts = [](const std::string& grid, Warnings* warnings) {
+    const Problem problem =
+        loaded(driven_press(),
+               "duration: 1\ninitial_state: {slide: {position: 0.39}, crank_joint: {guess: 0.3}, "
+               "knee: {guess: -0.4}}\nloads: [{joint: slide, effort: -1000}]\nefforts: {grid: "
+               "{slide: " +
+                   grid + "}}\n");
+    Rows rows;
+    const EffortSummary summary = record(problem, {}, 2, &rows);
+    EXPECT_EQ(summary.unreachable, 0U) << grid;
+    *warnings = summary.warnings;
+    std::map<double, double> by_position;
+    for (const std::vector<double>& row : rows) by_position[row[0]] = row[1];
+    return by_position;
+  };
+  Warnings warnings;
+  const std::map<double, double> first = efforts("[0.39, 0.38]", &warnings);
+  EXPECT_TRUE(warnings.empty());
+  for (const char* grid : {"[0.4, 0.39, 0.38]", "[0.39, 0.4, 0.38]", "[0.38, 0.4, 0.39]"}) {
+    const std::map<double, double> other = efforts(grid, &warnings);
+    for (const auto& [position, effort] : first)
+      EXPECT_NEAR(other.at(position), effort, 1e-6 * std::abs(effort)) << grid << " " << position;
+    ASSERT_EQ(warnings.size(), 1U) << grid;
+    EXPECT_EQ(warnings[0].code, "singular_posture");
+    EXPECT_NE(warnings[0].message.find("slide = 0.4"), std::string::npos) << warnings[0].message;
+  }
 }
 
 }  // namespace

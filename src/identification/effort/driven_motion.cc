@@ -226,4 +226,18 @@ Status DrivenMotion::follow(const DriveMotion& given, State<double>* state) {
   return solve_rates(given.acceleration, state);
 }
 
+double DrivenMotion::fastest_follower(const State<double>& state) {
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  if (!linearize(state).ok()) return kAny;
+  double fastest = 0.0;
+  for (int drive = 0; drive < drives_; ++drive) {
+    step_.setZero();
+    step_[system_.layout().lambda_column(system_.drive_row(drive))] = 1.0;
+    matrix_.lu().solve(step_);
+    const double rate = step_.head(system_.layout().n).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    fastest = std::isfinite(rate) ? std::max(fastest, rate) : kAny;
+  }
+  return fastest;
+}
+
 }  // namespace codesign

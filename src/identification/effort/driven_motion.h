@@ -53,6 +53,9 @@ class DrivenMotion {
   double effort(const State<double>& state, int k) const {
     return -state.z[system_.layout().lambda_column(system_.drive_row(k))];
   }
+  /// The largest rate of a coordinate per rate of a drive, over all drives, at a solution; infinite
+  /// if the drives do not determine it. The state's matrix is factorized.
+  double fastest_follower(const State<double>& state);
   const SparseLu& lu() const { return matrix_.lu(); }
   const CompiledSystem& system() const { return system_; }
   Equations<double>& equations() { return equations_; }

@@ -155,4 +155,11 @@ Status DrivenReplay::show(double time, const Eigen::VectorXd (&measured)[3], Fra
   return status;
 }
 
+bool DrivenReplay::is_singular() {
+  // A position that is solved for is off a singular one by the square root of its tolerance: other
+  // joints move as many times as fast as the drive.
+  constexpr double kLongestLever = 1e5;
+  return motion_.fastest_follower(state_) > kLongestLever;
+}
+
 }  // namespace codesign

@@ -68,6 +68,10 @@ class DrivenReplay {
   /// @param frame It has the efforts of the drives; other efforts are zero.
   Status show(double time, const Eigen::VectorXd (&measured)[3], Frame* frame);
 
+  /// Whether the positions of the drives do not determine the motion at the last instant shown: a
+  /// dead centre, or a position where several motions meet.
+  bool is_singular();
+
  private:
   const CompiledSystem& system_;
   const std::vector<MeasuredJoint> joints_;
