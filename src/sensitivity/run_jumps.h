@@ -48,7 +48,7 @@ class RunJumps {
 
   std::vector<RunJump> jumps_;  ///< the first `count_` entries; the others are spare memory
   std::size_t count_ = 0;
-  const std::vector<bool> none_;
+  std::vector<bool> none_;  ///< stays empty
 };
 
 }  // namespace codesign
