@@ -15,12 +15,14 @@ FIXED = {"k": (1, 0.01, 100), "b": (0.1, 0.01, 10)}  # parameters of models that
 @dataclasses.dataclass
 class ClosedForm:
     """@param name what switches or rests; @param links of the model, each on the one before: (link, joint, type, axis, inertial, more of the joint);
-    @param study its text without `parameters` and `solver`; @param numbers tuned parameter -> (value, lower, upper); @param objective(**numbers) of complex numbers"""
+    @param study its text without `parameters` and `solver`; @param numbers tuned parameter -> (value, lower, upper); @param objective(**numbers) of complex numbers;
+    @param without the ways that refuse the study"""
     name: str
     links: list
     study: str
     numbers: dict
     objective: typing.Callable
+    without: tuple = ()
 
     def model_numbers(self):
         """Parameters that the links name, tuned or not."""
@@ -192,6 +194,14 @@ loads: [{joint: rise, effort: "${run/position > xs ? F : 0}"}]
 objective: {terminal: [{signal: rise/position}]}""", {"xs": (0.7, 0.1, 1.5), "F": (3, 1, 5), "speed": (1.2, 1, 2)},
                lambda xs, F, speed: after(0.0, 0.0, [(F / 2.0, 2.0 - xs / speed)]) ** 2),
 ]
+EXTREMES = [
+    ClosedForm("the largest velocity, where its load turns round", SLIDE, kick("t < ts ? F : -1").replace("terminal", "maximum").replace("position", "velocity"),
+               {"ts": (0.7, 0.1, 1.9), "F": (1.5, 0.5, 3)}, lambda ts, F: F * ts, ("adjoint",)),
+    ClosedForm("the largest acceleration, before it jumps", SLIDE, kick("t < ts ? F*t : -1").replace("terminal", "maximum").replace("position", "acceleration"),
+               {"ts": (0.7, 0.1, 1.9), "F": (1.5, 0.5, 3)}, lambda ts, F: F * ts, ("adjoint",)),
+    ClosedForm("the largest position, where a wall of springs begins", SLIDE, moving("-k*max(0, slide/position - gap)", '{velocity: "${v0}"}').replace("terminal", "maximum"),
+               {"k": (1e4, 1e3, 1e5), "gap": (0.3, 0.1, 1), "v0": (1, 0.1, 3)}, lambda k, gap, v0: gap + v0 / cmath.sqrt(k), ("adjoint",)),
+]
 PULSES = [
     ClosedForm("a pulse of a tuned time and width", SLIDE, kick("100*exp(-((t - place)/width)**2)").replace("duration: 2", "duration: 5"),
                {"place": (1.7131, 0.1, 4), "width": (0.002, 0.001, 0.1)}, lambda place, width: (100.0 * width * cmath.sqrt(cmath.pi) * (5.0 - place)) ** 2),
@@ -242,4 +252,4 @@ initial_state: {slide: {velocity: 3}}
 loads: [{joint: slide, effort: "${-F}"}]
 objective: {terminal: [{signal: slide/position}], integral: [{signal: slide/velocity}]}""", {"F": (4, 1, 9)}, lambda F: (4.5 / F) ** 2 + 9.0 / F),
 ]
-CASES = AT_TIMES + AT_STATES + PULSES + AT_REST + ENDS
+CASES = AT_TIMES + AT_STATES + EXTREMES + PULSES + AT_REST + ENDS

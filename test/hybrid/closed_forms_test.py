@@ -49,7 +49,7 @@ def evaluate(codesign, case, solver):
 def row(case, answers):
     value, gradient = case.expected()
     listed = ", ".join(f"{name} {derivative:.10g}" for name, derivative in gradient.items())
-    cells = [f"{errors(case, answers[way])[1]:.0e}" for way in WAYS]
+    cells = [f"{errors(case, answers[way])[1]:.0e}" if way in answers else "-" for way in WAYS]
     return f"| {case.name} | {answers['default'].events} | {value:.10g} | {listed} | " + " | ".join(cells) + " |"
 
 
@@ -65,10 +65,11 @@ def main():
     given = parser.parse_args()
     codesign, faults, rows = os.path.abspath(given.codesign), [], []
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        runs = {(case.name, way): pool.submit(evaluate, codesign, case, solver) for case in CASES for way, (solver, _) in WAYS.items()}
+        runs = {(case.name, way): pool.submit(evaluate, codesign, case, solver) for case in CASES for way, (solver, _) in WAYS.items() if way not in case.without}
         for case in CASES:
-            answers = {way: runs[case.name, way].result() for way in WAYS}
-            for way, (_, allowed) in WAYS.items():
+            answers = {way: runs[case.name, way].result() for way in WAYS if way not in case.without}
+            for way in answers:
+                allowed = WAYS[way][1]
                 for what, error in zip(("objective", "gradient"), errors(case, answers[way])):
                     if not error < allowed:
                         faults.append(f"{case.name}, {way}: the {what} is off by {error:.1e}, {allowed:.0e} is allowed: {answers[way]} for {case.expected()}")
@@ -77,7 +78,7 @@ def main():
     if given.write:
         begin = text.index("| motion | events |")
         PAGE.write_text(text[:begin] + table(rows) + text[re.compile(r"\n(?!\|)").search(text, begin).start():], encoding="utf-8")
-    elif re.findall(r"^\| (a\w* [^|]+) \|", text, re.MULTILINE) != [case.name for case in CASES]:
+    elif re.findall(r"^\| ([a-z][^|]+) \| \d", text, re.MULTILINE) != [case.name for case in CASES]:
         faults.append("the table of doc/events.md lists other motions: closed_forms_test.py CODESIGN --write")
     print("\n".join(faults) or f"{len(CASES)} closed forms agree, each in {len(WAYS)} ways")
     sys.exit(1 if faults else 0)

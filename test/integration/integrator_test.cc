@@ -4,6 +4,7 @@
 #include <string>
 
 #include "equations/compiled_system.h"
+#include "integration/driven_slides.h"
 #include "integration/idas_integrator.h"
 #include "integration/integrator.h"
 #include "integration/rosenbrock_integrator.h"
