@@ -2,6 +2,7 @@
 #include "integration/run_watch.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -147,6 +148,22 @@ double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& moti
   return step.step_size() / 6.0 * (begun + 4.0 * middle + power_);
 }
 
+double StepWork::refined(const RosenbrockStep<double>& step, const BodyMotion& motion) {
+  constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0.0,
+                                         0.5384693101056831, 0.9061798459386640},
+      kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
+               0.2369268850561891};
+  double work = 0.0, psi = 0.0;
+  for (const double centre : {0.25, 0.75})
+    for (std::size_t k = 0; k < kNodes.size(); ++k) {
+      step.interpolate(centre + 0.25 * kNodes[k], &middle_, &psi);
+      work += 0.25 * kWeights[k] * motion.power(middle_.q, middle_.v, middle_.z);
+    }
+  // The checks that follow ask for the motion there.
+  power_ = motion.power(step.state().q, step.state().v, step.state().z);
+  return step.step_size() * work;
+}
+
 RunLimit drift_limit(double relative_tolerance) {
   const double limit = 10.0 / std::sqrt(relative_tolerance);
   return {limit, 3.0 * limit};
@@ -249,6 +266,12 @@ double RunWatch::drift(const State<double>& state, const VectorX<double>& positi
   add(position_correction, state.q);
   add(velocity_correction, state.v);
   return drift;
+}
+
+bool RunWatch::doubts(const State<double>& state, double work) {
+  constexpr double kShare = 0.01;
+  const double open = motion_.energy(state.q, state.v).total() - start_energy_ - work_ - imbalance_;
+  return std::abs(open - work) > kShare * energy_limit_.warning * std::max(scale_, std::abs(work));
 }
 
 Status RunWatch::check(const State<double>& state, double drift, double work,

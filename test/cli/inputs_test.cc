@@ -116,12 +116,9 @@ TEST(Inputs, ABaseThatFloatsOnTheCommandLineIsThatOfTheStudy) {
   std::ofstream(folder.path("drone.urdf"))
       << R"(<robot name="drone"><link name="base"><inertial><mass value="2"/><inertia ixx="0.1"
             ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.2"/></inertial></link></robot>)";
-  std::ofstream(folder.path("fall.yaml")) << "duration: 1
-      base : floating initial_state : {
-  floating_base : {
-  linear_velocity: [0, 0, "
-         "1]}}
-";
+  std::ofstream(folder.path("fall.yaml"))
+      << "duration: 1\nbase: floating\n"
+         "initial_state: {floating_base: {linear_velocity: [0, 0, 1]}}\n";
   Arguments arguments;
   arguments.model = folder.path("drone.urdf");
   EXPECT_THROW(load(arguments), InputError);
@@ -131,8 +128,8 @@ TEST(Inputs, ABaseThatFloatsOnTheCommandLineIsThatOfTheStudy) {
   EXPECT_EQ(load(arguments).overlays().size(), 1U) << "named by both, once";
   arguments.floating_base = false;
   EXPECT_EQ(load(arguments).overlays().size(), 1U);
-  }
+}
 
-  }  // namespace
+}  // namespace
 
 }  // namespace codesign::cli

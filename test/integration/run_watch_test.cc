@@ -3,6 +3,7 @@
 
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
+#include "integration/driven_slides.h"
 #include "integration/energy_balance.h"
 #include "integration/linkages.h"
 #include "integration/rosenbrock_integrator.h"
@@ -357,6 +358,23 @@ TEST(RunWatch, AMechanismThatHardlyMovesIsNotJudgedByWhatNoToleranceResolves) {
   if (status.ok()) status = simulation.advance(2.0);
   EXPECT_TRUE(status.ok()) << status.cause;
   EXPECT_TRUE(simulation.warnings().empty()) << simulation.statistics().energy_error;
+}
+
+// Steps under such a force have no error, so that they are as long as the run.
+TEST(RunWatch, AForceThatIsAPolynomialOfTheTimeIsInBalance) {
+  for (const char* method : {"auto", "rodas5p"}) {
+    const auto system =
+        compile(robot(mass("block", 2.0) + lift("slide", "block", 0.0)),
+                std::string("duration: 2.0\nloads: [{joint: slide, effort: \"${5*(t - 1)**2}\"}]\n"
+                            "objective: {terminal: [{signal: slide/position}]}\n"
+                            "solver: {method: ") +
+                    method + "}\n");
+    Simulation simulation = simulation_of(system, system->parameters());
+    Status status = simulation.start();
+    if (status.ok()) status = simulation.advance(2.0);
+    EXPECT_TRUE(status.ok()) << method << ": " << status.cause;
+    EXPECT_LT(simulation.statistics().energy_error, 1e-6) << method;
+  }
 }
 
 }  // namespace
