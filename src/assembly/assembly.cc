@@ -50,7 +50,6 @@ Assembly::Assembly(const CompiledSystem& system)
   position_given_ = given.position;
   guess_given_ = given.guess;
   velocity_given_ = given.velocity;
-  position_beside_ = given.position_beside;
   velocity_beside_ = given.velocity_beside;
   derivatives_.resize(system.patterns());
 }
@@ -101,13 +100,13 @@ void Assembly::follow_couplings(const Equations<double>& equations) {
   }
 }
 
-void Assembly::by_preference(const std::vector<bool>& given, const std::vector<bool>& beside,
+void Assembly::by_preference(const std::vector<bool>& given, const std::vector<bool>* beside,
                              ColumnPreferences* lists) const {
   if (lists->size() < 3) lists->resize(3);
   for (std::vector<int>& list : *lists) list.clear();
   for (int c = 0; c < tree_.size; ++c)
     if (const auto k = to_index(c); !given[k])
-      (*lists)[follows_[k] ? 0 : beside[k] ? 2 : 1].push_back(c);
+      (*lists)[follows_[k] ? 0 : beside != nullptr && (*beside)[k] ? 2 : 1].push_back(c);
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations,

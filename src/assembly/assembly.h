@@ -287,9 +287,11 @@ class Assembly {
   void follow_couplings(const Equations<double>& equations);
   /// The first three lists of column preferences: followers, then the other coordinates that are
   /// not given, then those of them that are `beside` given ones of the same joint.
-  void by_preference(const std::vector<bool>& given, const std::vector<bool>& beside,
+  void by_preference(const std::vector<bool>& given, const std::vector<bool>* beside,
                      ColumnPreferences* lists) const;
-  void prefer_positions() { by_preference(position_given_, position_beside_, &work_.positions); }
+  /// Open positions close the loops together, by the least change: one of them alone may bring its
+  /// loop to a dead centre.
+  void prefer_positions() { by_preference(position_given_, nullptr, &work_.positions); }
   ReferenceMotion<double> given_motion(const Equations<double>& equations,
                                        const Coupling& coupling) const;
   void find_given_rates(const Equations<double>& equations);
@@ -329,7 +331,7 @@ class Assembly {
                                 ///< the drive of a loop
   std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
-  std::vector<bool> position_beside_, velocity_beside_;  ///< GivenStart
+  std::vector<bool> velocity_beside_;  ///< GivenStart
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;  ///< [s]
   double time_ = 0.0;        ///< of the positions that are sought [s]

@@ -78,7 +78,7 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
   work_.not_open = velocity_given_;
   for (std::size_t k = 0; k < position_given_.size(); ++k)
     if (position_given_[k]) work_.not_open[k] = true;
-  by_preference(work_.not_open, velocity_beside_, &preferences);
+  by_preference(work_.not_open, &velocity_beside_, &preferences);
   for (int c = 0; c < tree_.size; ++c)
     if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k])
       preferences[3].push_back(c);

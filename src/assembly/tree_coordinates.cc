@@ -160,8 +160,7 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
 GivenStart::GivenStart(const System& system, TreeLayout* layout) {
   TreeLayout& tree = *layout;
   const auto size = to_index(tree.size);
-  for (std::vector<bool>* flags :
-       {&position, &guess, &velocity, &position_beside, &velocity_beside})
+  for (std::vector<bool>* flags : {&position, &guess, &velocity, &velocity_beside})
     flags->assign(size, false);
   for (const InitialJointState& initial : system.study().initial_state) {
     const int joint = tree_joint(system.robot(), initial);
@@ -176,8 +175,6 @@ GivenStart::GivenStart(const System& system, TreeLayout* layout) {
     mark(&position, c + slides, turns, initial.rotation.has_value());
     mark(&velocity, c, slides, initial.linear_velocity.has_value());
     mark(&velocity, c + slides, turns, initial.angular_velocity.has_value());
-    mark(&position_beside, c, slides, initial.rotation && !initial.translation);
-    mark(&position_beside, c + slides, turns, initial.translation && !initial.rotation);
     mark(&velocity_beside, c, slides, initial.angular_velocity && !initial.linear_velocity);
     mark(&velocity_beside, c + slides, turns, initial.linear_velocity && !initial.angular_velocity);
   }

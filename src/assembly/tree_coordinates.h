@@ -27,11 +27,10 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
                              Equations<double>* equations, TreeCoordinates* result);
 
 /// Flags per tree coordinate (TreeLayout order): whether the study gives its position, a guess of
-/// it, or its rate; and whether it gives that of other coordinates of the same planar or floating
-/// joint only: such a coordinate stays at zero where the loops allow it.
+/// it, or its rate; and whether it gives the rates of other coordinates of the same planar or
+/// floating joint only: such a rate stays at zero where the loops allow it.
 struct GivenStart {
-  std::vector<bool> position, guess, velocity;
-  std::vector<bool> position_beside, velocity_beside;
+  std::vector<bool> position, guess, velocity, velocity_beside;
 
   /// @param tree a motor behind an elastic gear whose position is given does not follow its joint
   /// any more: it is taken out of TreeLayout::motors.

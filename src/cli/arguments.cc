@@ -228,8 +228,8 @@ const CommandHelp kCommands[] = {
     --fill                 first write each plain number that an expression beside it gives
 )"},
     {"overlay",
-     R"(  overlay MODEL            an overlay to begin with: what a vendor's URDF does not say (base, masses,
-                           rotors, gears, friction), with a line for each number to fill in
+     R"(  overlay MODEL            an overlay to begin with: what a vendor's URDF does not say (base,
+                           masses, rotors, gears, friction), with a line for each number to fill in
 )"},
     {"simulate", R"(  simulate MODEL STUDY     one run as CSV
     --signals A,B          the signals to print; by default of all joints, frictions, controllers

@@ -26,10 +26,11 @@ inline constexpr const char* kGearedArm = R"(<robot name="arm" xmlns:codesign="u
     <inertia ixx="0.08" iyy="0.08" izz="0.01" ixy="0" ixz="0" iyz="0"/></inertial></link>
   <joint name="shoulder" type="continuous"><parent link="base"/><child link="upper"/><axis xyz="0 1 0"/>
     <codesign:actuator gear_ratio="80" rotor_inertia="1e-4" efficiency="0.95" codesign:efficiency="${efficiency}"
-      coulomb="0.02" codesign:coulomb="${motor_coulomb}" viscous="1e-4" codesign:viscous="${motor_viscous}"/></joint>
+      coulomb="0.02" codesign:coulomb="${motor_coulomb}" viscous="1e-4" codesign:viscous="${motor_viscous}"
+      transition_velocity="0.01"/></joint>
   <joint name="elbow" type="continuous"><parent link="upper"/><child link="lower"/><origin xyz="0 0 -0.6"/><axis xyz="0 1 0"/>
     <codesign:friction coulomb="0.5" codesign:coulomb="${coulomb}" viscous="0.5" codesign:viscous="${viscous}"
-      viscous_exponent="1" codesign:viscous_exponent="${exponent}"/></joint>
+      viscous_exponent="1" codesign:viscous_exponent="${exponent}" transition_velocity="0.01"/></joint>
 </robot>)";
 
 /// @param data of the recording, an entry of `identify.data`.

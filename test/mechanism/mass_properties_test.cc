@@ -112,8 +112,19 @@ TEST(MassProperties, DerivativesAgreeWithTheComplexStep) {
   }
 }
 
-TEST(MassProperties, AMeshHasNoMass) {
-  EXPECT_EQ(of_shapes(1.0, {shape(Kind::kMesh, {})}).mass, 0.0);
+TEST(MassProperties, AMeshIsItsSolidInItsScale) {
+  // A box of 2 x 1 x 1 about its centre.
+  MeshMoments moments;
+  moments.volume = 2.0;
+  moments.second = Eigen::Vector3d(2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0).asDiagonal();
+  ShapeDescription mesh = shape(Kind::kMesh, {0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3});
+  mesh.mesh = std::make_shared<const MeshMoments>(moments);
+  const MassProperties<double> found = of_shapes(700.0, {mesh}),
+                               box = of_shapes(700.0, {shape(Kind::kBox, {0.2, 0.2, 0.3},
+                                                             {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3})});
+  EXPECT_NEAR(found.mass, box.mass, 1e-12 * box.mass);
+  EXPECT_LT((found.centre - box.centre).norm(), 1e-12);
+  EXPECT_LT((found.inertia - box.inertia).norm(), 1e-12 * box.inertia.norm());
 }
 
 MassProperties<double> cuboid(double mass, const Vector3<double>& size,

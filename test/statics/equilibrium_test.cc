@@ -143,7 +143,9 @@ TEST(Equilibrium, HangsABodyOnSprings) {
 // A stop is a stiff spring that begins to act at its edge.
 TEST(Equilibrium, RestsOnAStop) {
   const Equilibrium found = equilibrium_of(
-      loaded(pendulum_urdf(), start_at(-1.0, "gravity: [20, 0, 0]\nlimits: {position: true}\n")));
+      loaded(pendulum_urdf(), start_at(-1.0,
+                                       "gravity: [20, 0, 0]\nlimits: {position: true, "
+                                       "stiffness: 1.0e4, width: 1.0e-3}\n")));
   ASSERT_TRUE(found.status.ok()) << found.status.cause;
   // com = -0.5 sin(theta) along x: the load turns the bar towards -pi/2, to the stop at -1.2.
   const double beyond = -1.2 - position_of(found, "hinge");

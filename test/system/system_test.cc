@@ -48,8 +48,8 @@ TEST(CompiledSystem, ADifferentialGainNeedsARateThatExists) {
   EXPECT_EQ(
       controlled("{d: 1.0}", "hinge/position", kSwing).controllers().at(0).input_rate.at(0).kind,
       SignalKind::kJointVelocity);
-  EXPECT_NO_THROW(controlled("{p: 1.0}", "bar/angular_velocity/y", kSwing));
-  EXPECT_THROW(controlled("{d: 1.0}", "bar/angular_velocity/y", kSwing), InputError);
+  EXPECT_NO_THROW(controlled("{d: 1.0}", "bar/angular_velocity/y", kSwing));
+  EXPECT_THROW(controlled("{d: 1.0}", "bar/acceleration/y", kSwing), InputError);
 }
 
 TEST(CompiledSystem, AControllerCannotReadWhatItCauses) {

@@ -133,13 +133,13 @@ TEST(StudyReferences, ATrajectoryInATable) {
       << fault(reference, table);
   const std::string back = fault(reference, "t,height\n0,0\n\n2,1\n1,2\n");
   EXPECT_NE(
-      back.find("road.csv:5: column \"t\": the times must ascend (value: 1, allowed: above 2"),
+      back.find("road.csv:5: column \"t\": the times must ascend, and this one does not come later"),
       std::string::npos)
       << back;
   const std::string long_row = fault(reference, "t;height\n0;0\n1;2;3\n");
   EXPECT_NE(long_row.find("road.csv:3: a row of 3 cells, where the first has 2"), std::string::npos)
       << long_row;
-  EXPECT_EQ(long_row.find("`delimiter`"), std::string::npos) << "which a trajectory does not have";
+  EXPECT_NE(long_row.find("`delimiter`"), std::string::npos) << long_row;
   EXPECT_NE(fault("{type: trajectory, csv: road.csv, column: hight, time: t}", table)
                 .find("did you mean \"height\""),
             std::string::npos);
