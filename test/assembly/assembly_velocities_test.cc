@@ -81,14 +81,5 @@ TEST(AssemblyVelocities, WhatAFloatingJointDoesNotSayRests) {
   }
 }
 
-// Likewise the position: a plate that starts turned stays in its place.
-TEST(AssemblyVelocities, APlateThatStartsTurnedStaysInItsPlace) {
-  Compiled c(plate_on_legs(),
-             "duration: 1.0\ninitial_state: {free: {rotation: [0.1, 0.05, 0.2]}}\n");
-  const Status status = c.start();
-  ASSERT_TRUE(status.ok()) << status.cause;
-  EXPECT_LT(c.assembly.theta().head(3).norm(), 1e-9);
-}
-
 }  // namespace
 }  // namespace codesign
