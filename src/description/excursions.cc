@@ -15,6 +15,7 @@ constexpr int kSamples = 16384;
 constexpr double kHeight = 1e-3;  // of the range
 constexpr double kWidth = 0.2;    // of the interval; a stage of a step falls into wider ones
 constexpr int kHalvings = 20;     // of the distance between two samples
+constexpr double kJump = 0.1;     // of the height, within the last of them
 
 /// Samples at the ends of `kSamples` equal intervals; one that is no number is as the one before.
 class Samples {
@@ -54,8 +55,13 @@ class Samples {
     return turns;
   }
 
-  /// Where the function has the value `level` between the extremum `from` and the sample `to`.
-  double crossing(int from, int to, double level) const {
+  struct Crossing {
+    double time;
+    bool is_jump;
+  };
+  /// Where the function has the value `level` between the extremum `from` and the sample `to`, or
+  /// jumps over it.
+  Crossing crossing(int from, int to, double level) const {
     const int step = to > from ? 1 : -1;
     const bool above = (*this)[from] > level;
     int k = from;
@@ -65,7 +71,9 @@ class Samples {
       const double middle = 0.5 * (inside + outside);
       ((function_(middle) > level) == above ? inside : outside) = middle;
     }
-    return 0.5 * (inside + outside);
+    const double height = std::abs((*this)[from] - level);
+    return {0.5 * (inside + outside),
+            !(std::abs(function_(outside) - function_(inside)) <= kJump * height)};
   }
 
  private:
@@ -109,10 +117,14 @@ std::vector<double> excursions_of(const std::function<double(double)>& function,
     const double here = samples[turns[k]], before = here - samples[turns[k - 1]],
                  after = here - samples[turns[k + 1]];
     const double level = here - 0.5 * (std::abs(before) < std::abs(after) ? before : after);
-    const double begin = samples.crossing(turns[k], turns[k - 1], level),
-                 end = samples.crossing(turns[k], turns[k + 1], level);
-    if (end - begin < kWidth * duration)
-      instants.insert(instants.end(), {begin, 0.5 * (begin + end), end});
+    const Samples::Crossing begin = samples.crossing(turns[k], turns[k - 1], level),
+                            end = samples.crossing(turns[k], turns[k + 1], level);
+    if (!(end.time - begin.time < kWidth * duration)) continue;
+    instants.push_back(0.5 * (begin.time + end.time));
+    // A jump has a switch, which is located to rounding and moves with the design; a step that
+    // ended beside it would hide that.
+    for (const Samples::Crossing& edge : {begin, end})
+      if (!edge.is_jump) instants.push_back(edge.time);
   }
   return instants;
 }

@@ -35,12 +35,12 @@ class EnsembleTest(NodesTestCase):
     def test_scenarios(self):
         result = self.result
         self.assertTrue(result.success, result.message)
-        self.assertEqual([scenario.sample for scenario in result.scenarios], list(range(1, 33)))
+        self.assertEqual([scenario.sample for scenario in result.scenarios], list(range(1, 37)), "32 samples, and both ends of the interval with both laws")
         for scenario in result.scenarios:
             self.assertEqual(scenario.run, "")
             self.assertEqual(list(scenario.parameters), ["mu_static"])
             self.assertTrue(0.0 < scenario.values[0] < 0.5)
-            self.assertAlmostEqual(scenario.weight, 1.0 / 32.0)
+            self.assertAlmostEqual(scenario.weight, 1.0 / 36.0)
             self.assertFalse(scenario.failed or scenario.initial_failed)
         self.assertEqual({scenario.friction_law for scenario in result.scenarios}, {"brown_mcphee", "gonthier"})
         self.assertAlmostEqual(max(scenario.objective for scenario in result.scenarios), result.objective, delta=1e-6 * result.objective)

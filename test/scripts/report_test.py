@@ -478,14 +478,6 @@ class Report(unittest.TestCase):
         self.assertIn(f"codesign report: {page}: cannot be written: ", done.stderr)
         self.assertEqual((read(page), sorted(os.listdir(folder))), (b"of before", names))
 
-    def test_a_folder_that_is_no_utf_8(self):
-        folder = os.fsdecode(os.fsencode(self.path("caf")) + b"\xe9")
-        shutil.copytree(self.path("job"), folder)
-        page = os.path.join(folder, "page.html")
-        done = run("report", folder, "-o", page)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("caf\ufffd".encode(), read(page))
-
     def test_damaged_files_are_named(self):
         shutil.copytree(self.path("job"), self.path("damaged"))
         whole = {name: read(self.path("damaged", name)) for name in ("tuned.urdf", "tuned.csv", "details.json", "result.json")}
