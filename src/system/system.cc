@@ -316,13 +316,13 @@ void System::check_readable(const Signal& signal, const SignalDescription& descr
 
 void System::refuse_unsupported() const {
   if (topology_.bodies.empty())
-    throw InputError({robot_.links[to_index(robot_.root)].where,
-                      "<robot name=\"" + robot_.name + "\">",
-                      "nothing moves: no link with an <inertial> hangs on a movable joint", "",
-                      "at least one link with <inertial> below a joint that is not fixed; <inertial "
-                      "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes; "
-                      "or, if the whole model moves freely, base: floating in the study, or --base "
-                      "floating on the command line"});
+    throw InputError(
+        {robot_.links[to_index(robot_.root)].where, "<robot name=\"" + robot_.name + "\">",
+         "nothing moves: no link with an <inertial> hangs on a movable joint", "",
+         "at least one link with <inertial> below a joint that is not fixed; <inertial "
+         "codesign:density=\"...\"/> of an overlay computes it from shapes and meshes; "
+         "or, if the whole model moves freely, base: floating in the study, or --base "
+         "floating on the command line"});
 }
 
 }  // namespace codesign

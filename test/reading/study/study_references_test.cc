@@ -133,7 +133,8 @@ TEST(StudyReferences, ATrajectoryInATable) {
       << fault(reference, table);
   const std::string back = fault(reference, "t,height\n0,0\n\n2,1\n1,2\n");
   EXPECT_NE(
-      back.find("road.csv:5: column \"t\": the times must ascend, and this one does not come later"),
+      back.find(
+          "road.csv:5: column \"t\": the times must ascend, and this one does not come later"),
       std::string::npos)
       << back;
   const std::string long_row = fault(reference, "t;height\n0;0\n1;2;3\n");
