@@ -361,17 +361,20 @@ void SignalWatch::settle(std::size_t k, const Sample& behind, double slack) {
     if (slopes_[before] != 0.0 && turns_before && !jumped)
       extremes_.values[before] = extremes_.values[at];
     if (slopes_[before] != 0.0 && !turns_before) copy(at, before);
+    // In front of a jump the instant has that number, too, and the next window begins with it.
+    if (slopes_[before] != 0.0 && turns_before && jumped)
+      for (const int place : {at, after}) copy(before, place);
     if (!turns_after || !go_to(k, behind.time)) continue;
     const double slope = differentiate(k, begin_time_);
     set(after, behind.time, jumped ? behind.value : extremes_.values[at], slope);
   }
 }
 
-/// Gives a number the value and the derivatives of another one, which does not move.
+/// Gives a number the value and the derivatives of another one.
 void SignalWatch::copy(int from, int to) {
   extremes_.values[to] = extremes_.values[from];
   extremes_.times[to] = extremes_.times[from];
-  slopes_[to] = 0.0;
+  slopes_[to] = slopes_[from];
   if (differentiate_) extremes_.gradients.col(to) = extremes_.gradients.col(from);
 }
 

@@ -83,6 +83,14 @@ parameters: {ts: {initial: 0.8, lower: 0.1, upper: 1.9}}
 objective: {maximum: [{signal: slide/acceleration}]})",
        1.6,
        {2.0}},
+      // The same at an instant between two of the windows in which extreme values are sought.
+      {"a jump downwards between two windows",
+       R"(
+loads: [{joint: slide, effort: "${t < ts ? 2*t : -1}"}]
+parameters: {ts: {initial: 1.0, lower: 0.1, upper: 1.9}}
+objective: {maximum: [{signal: slide/acceleration}]})",
+       2.0,
+       {2.0}},
       // And just behind it.
       {"a jump upwards",
        R"(
