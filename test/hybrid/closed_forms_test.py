@@ -75,10 +75,11 @@ def main():
                         faults.append(f"{case.name}, {way}: the {what} is off by {error:.1e}, {allowed:.0e} is allowed: {answers[way]} for {case.expected()}")
             rows.append(row(case, answers))
     text = PAGE.read_text(encoding="utf-8")
+    begin = text.index("| motion | events |")
+    end = re.compile(r"\n(?!\|)").search(text, begin).start()
     if given.write:
-        begin = text.index("| motion | events |")
-        PAGE.write_text(text[:begin] + table(rows) + text[re.compile(r"\n(?!\|)").search(text, begin).start():], encoding="utf-8")
-    elif re.findall(r"^\| ([a-z][^|]+) \| \d", text, re.MULTILINE) != [case.name for case in CASES]:
+        PAGE.write_text(text[:begin] + table(rows) + text[end:], encoding="utf-8")
+    elif re.findall(r"^\| ([a-z][^|]+) \| \d", text[begin:end], re.MULTILINE) != [case.name for case in CASES]:
         faults.append("the table of doc/events.md lists other motions: closed_forms_test.py CODESIGN --write")
     print("\n".join(faults) or f"{len(CASES)} closed forms agree, each in {len(WAYS)} ways")
     sys.exit(1 if faults else 0)
