@@ -100,13 +100,11 @@ void Assembly::follow_couplings(const Equations<double>& equations) {
   }
 }
 
-void Assembly::by_preference(const std::vector<bool>& given, const std::vector<bool>* beside,
-                             ColumnPreferences* lists) const {
-  if (lists->size() < 3) lists->resize(3);
+void Assembly::by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const {
+  if (lists->size() < 2) lists->resize(2);
   for (std::vector<int>& list : *lists) list.clear();
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = to_index(c); !given[k])
-      (*lists)[follows_[k] ? 0 : beside != nullptr && (*beside)[k] ? 2 : 1].push_back(c);
+    if (const auto k = to_index(c); !given[k]) (*lists)[follows_[k] ? 0 : 1].push_back(c);
 }
 
 void Assembly::place(const std::vector<double>& parameters, Equations<double>* equations,

@@ -285,13 +285,12 @@ class Assembly {
              State<double>* state);
   void set_start(const std::vector<double>& parameters);
   void follow_couplings(const Equations<double>& equations);
-  /// The first three lists of column preferences: followers, then the other coordinates that are
-  /// not given, then those of them that are `beside` given ones of the same joint.
-  void by_preference(const std::vector<bool>& given, const std::vector<bool>* beside,
-                     ColumnPreferences* lists) const;
+  /// The first two lists of column preferences: followers, then the other coordinates that are not
+  /// given.
+  void by_preference(const std::vector<bool>& given, ColumnPreferences* lists) const;
   /// Open positions close the loops together, by the least change: one of them alone may bring its
   /// loop to a dead centre.
-  void prefer_positions() { by_preference(position_given_, nullptr, &work_.positions); }
+  void prefer_positions() { by_preference(position_given_, &work_.positions); }
   ReferenceMotion<double> given_motion(const Equations<double>& equations,
                                        const Coupling& coupling) const;
   void find_given_rates(const Equations<double>& equations);

@@ -77,11 +77,11 @@ Status Assembly::solve_velocities(const std::vector<double>& parameters,
   preferences.resize(4);
   work_.not_open = velocity_given_;
   for (std::size_t k = 0; k < position_given_.size(); ++k)
-    if (position_given_[k]) work_.not_open[k] = true;
-  by_preference(work_.not_open, &velocity_beside_, &preferences);
+    if (position_given_[k] || velocity_beside_[k]) work_.not_open[k] = true;
+  by_preference(work_.not_open, &preferences);
   for (int c = 0; c < tree_.size; ++c)
-    if (const auto k = to_index(c); position_given_[k] && !velocity_given_[k])
-      preferences[3].push_back(c);
+    if (const auto k = to_index(c); work_.not_open[k] && !velocity_given_[k])
+      preferences[position_given_[k] ? 3 : 2].push_back(c);
   scale_loops(parameters, *equations);
   prefer_positions();
   choose(work_.positions, &positions_);

@@ -151,6 +151,10 @@ std::optional<InputFault> find_missing_bounds(const Parameter& parameter) {
                     "", "lower and upper, both given"};
 }
 
+const Parameter& tuned_parameter(const MotionStudy& study, Eigen::Index k) {
+  return study.parameters[to_index(study.tuned[to_index(k)])];
+}
+
 std::vector<std::string> tuned_names(const MotionStudy& study) {
   std::vector<std::string> names;
   names.reserve(study.tuned.size());

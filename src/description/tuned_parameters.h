@@ -67,6 +67,9 @@ InputError tuned_error(const SourceLocation& where, const std::string& element,
 /// std::nullopt if it has them.
 std::optional<InputFault> find_missing_bounds(const Parameter& parameter);
 
+/// The parameter of entry k of rho.
+const Parameter& tuned_parameter(const MotionStudy& study, Eigen::Index k);
+
 /// Names of the tuned parameters, in the order of rho.
 std::vector<std::string> tuned_names(const MotionStudy& study);
 

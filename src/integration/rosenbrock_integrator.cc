@@ -341,9 +341,11 @@ Status RosenbrockIntegrator::look() {
   const double drift =
       run_watch_.drift(step_.state(), step_.position_correction(), step_.velocity_correction());
   singularity_.look(step_.state(), drift, &step_.equations());
-  double work = work_.over(step_, run_watch_.motion());
-  if (run_watch_.doubts(step_.state(), work)) work = work_.refined(step_, run_watch_.motion());
-  Status status = run_watch_.check(step_.state(), drift, work, &statistics_);
+  const BodyMotion& motion = run_watch_.motion();
+  double work = work_.over(step_, motion);
+  const BodyEnergy energy = motion.energy(step_.state().q, step_.state().v);
+  if (run_watch_.doubts(energy, work)) work = work_.refined(step_, motion);
+  Status status = run_watch_.check(step_.state(), energy, drift, work, &statistics_);
   if (status.ok())
     status = watch_.check(step_.state(), statistics_.steps + statistics_.rejected_steps);
   return status;

@@ -159,8 +159,6 @@ double StepWork::refined(const RosenbrockStep<double>& step, const BodyMotion& m
       step.interpolate(centre + 0.25 * kNodes[k], &middle_, &psi);
       work += 0.25 * kWeights[k] * motion.power(middle_.q, middle_.v, middle_.z);
     }
-  // The checks that follow ask for the motion there.
-  power_ = motion.power(step.state().q, step.state().v, step.state().z);
   return step.step_size() * work;
 }
 
@@ -268,19 +266,23 @@ double RunWatch::drift(const State<double>& state, const VectorX<double>& positi
   return drift;
 }
 
-bool RunWatch::doubts(const State<double>& state, double work) {
+bool RunWatch::doubts(const BodyEnergy& energy, double work) const {
   constexpr double kShare = 0.01;
-  const double open = motion_.energy(state.q, state.v).total() - start_energy_ - work_ - imbalance_;
+  const double open = energy.total() - start_energy_ - work_ - imbalance_;
   return std::abs(open - work) > kShare * energy_limit_.warning * std::max(scale_, std::abs(work));
 }
 
 Status RunWatch::check(const State<double>& state, double drift, double work,
                        Statistics* statistics) {
+  return check(state, motion_.energy(state.q, state.v), drift, work, statistics);
+}
+
+Status RunWatch::check(const State<double>& state, const BodyEnergy& energy, double drift,
+                       double work, Statistics* statistics) {
   if (drift > statistics->constraint_drift) {
     statistics->constraint_drift = drift;
     worst_drift_time_ = state.t;
   }
-  const BodyEnergy energy = motion_.energy(state.q, state.v);
   potential_ = energy.potential;
   work_ += work;
   turnover_ += std::abs(work);

@@ -82,9 +82,9 @@ class StepWork {
   /// Work [J] over the last accepted step. Must be called once for each accepted step: the power at
   /// its end is kept for the next one.
   double over(const RosenbrockStep<double>& step, const BodyMotion& motion);
-  /// The same step by Gauss's formula of five points on each half. Simpson's rule is exact for
-  /// cubic powers only: a step under a force that is a polynomial of the time, say, has no error
-  /// and becomes as long as the run.
+  /// The same step, after over(), by Gauss's formula of five points on each half. Simpson's rule is
+  /// exact for cubic powers only: a step under a force that is a polynomial of the time, say, has
+  /// no error and becomes as long as the run.
   double refined(const RosenbrockStep<double>& step, const BodyMotion& motion);
 
  private:
@@ -133,9 +133,12 @@ class RunWatch {
   /// work of all forces but gravity over the step [J]. @param statistics receives the largest drift
   /// and energy error so far. @returns kConstraintDrift, kEnergyError or ok.
   Status check(const State<double>& state, double drift, double work, Statistics* statistics);
-  /// Whether `work` leaves a change of the energy over the step to `state` open that counts in the
-  /// limits, so that it should be computed more exactly before check().
-  bool doubts(const State<double>& state, double work);
+  /// The same. @param energy at the state.
+  Status check(const State<double>& state, const BodyEnergy& energy, double drift, double work,
+               Statistics* statistics);
+  /// Whether `work` leaves a change of the energy over the step open that counts in the limits, so
+  /// that it should be computed more exactly before check(). @param energy at its end.
+  bool doubts(const BodyEnergy& energy, double work) const;
 
   /// `constraint_drift` and `energy_error`, if the run so far exceeds their limits.
   Warnings warnings(const Statistics& statistics) const;

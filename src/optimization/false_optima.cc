@@ -104,7 +104,7 @@ bool SearchTrials::has_lower_along_flat() {
 Eigen::VectorXd SearchTrials::extents() const {
   Eigen::VectorXd unit(to_signed(study_.tuned.size()));
   for (Eigen::Index k = 0; k < unit.size(); ++k)
-    unit[k] = extent(study_.parameters[to_index(study_.tuned[to_index(k)])], result_.best.rho[k]);
+    unit[k] = extent(tuned_parameter(study_, k), result_.best.rho[k]);
   return unit;
 }
 
@@ -114,7 +114,7 @@ Eigen::VectorXd SearchTrials::sizes() {
   Eigen::VectorXd unit = extents();
   judged_scaling();
   for (Eigen::Index k = 0; k < unit.size(); ++k) {
-    const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(k)])];
+    const Parameter& p = tuned_parameter(study_, k);
     if (!has_range(p) && p.value == 0.0)
       unit[k] = std::min(judged_.range(to_index(k)), std::max(std::abs(result_.best.rho[k]), 1.0));
   }
@@ -128,7 +128,7 @@ SearchTrials::Beside SearchTrials::look_beside(const Eigen::VectorXd& direction,
   for (const double sign : {1.0, -1.0}) {
     double taken = share;
     for (Eigen::Index k = 0; k < direction.size(); ++k) {
-      const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(k)])];
+      const Parameter& p = tuned_parameter(study_, k);
       const double by = sign * direction[k] * side.unit[k],
                    room = (by > 0.0 ? p.upper : p.lower) - result_.best.rho[k];
       if (by != 0.0) taken = std::min(taken, room / by);
@@ -208,7 +208,7 @@ SearchTrials::Beside SearchTrials::look_along_valley(Eigen::VectorXd rho, const 
       return Beside::kChanged;
     rho += floor.step.cwiseProduct(side.unit);
     for (Eigen::Index i = 0; i < rho.size(); ++i) {
-      const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(i)])];
+      const Parameter& p = tuned_parameter(study_, i);
       rho[i] = std::min(p.upper, std::max(p.lower, rho[i]));
     }
     there = ensemble_.evaluate(rho, Derivatives::kGradient, cancel_);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "engine/thread_engine.h"
 #include "ensemble/parameter_rows.h"
 #include "math/arrays.h"
@@ -108,7 +109,7 @@ class Multistart {
   Eigen::VectorXd at(const Eigen::VectorXd& u) const {
     Eigen::VectorXd rho(u.size());
     for (Eigen::Index k = 0; k < u.size(); ++k) {
-      const Parameter& p = study_.parameters[to_index(study_.tuned[to_index(k)])];
+      const Parameter& p = tuned_parameter(study_, k);
       rho[k] = p.lower + u[k] * (p.upper - p.lower);
     }
     return rho;

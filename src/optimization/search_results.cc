@@ -182,7 +182,7 @@ void add_flat_warning(const Study& study, const OptimizerOptions& options,
     std::string point;
     for (Eigen::Index k = 0; k < points.rows(); ++k) {
       if (points(k, d) == result.best.rho[k]) continue;
-      const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
+      const Parameter& parameter = tuned_parameter(study, k);
       point += (point.empty() ? "" : ", ") + parameter.name + " " + readable(points(k, d));
     }
     list += (d == 0 ? "" : "; or ") + point;

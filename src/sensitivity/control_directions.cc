@@ -59,7 +59,7 @@ Eigen::MatrixXd control_directions(const CompiledSystem& system) {
   // libraries.
   std::mt19937 generator(1);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
+    const Parameter& parameter = tuned_parameter(study, k);
     for (double& entry : directions.row(k)) {
       const auto number = generator();
       const double size = 0.5 + static_cast<double>(number >> 1) / 2147483648.0;

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "math/arrays.h"
 #include "math/differences.h"
@@ -33,9 +34,8 @@ void refuse_non_finite(const CompiledSystem& system, GradientCheck* check) {
     if (std::isfinite(check->reference[k]) && std::isfinite(check->reference_error[k])) continue;
     const MotionStudy& study = system.study();
     const bool along = check->directions.size() > 0;
-    const std::string name =
-        along ? "along direction " + std::to_string(k + 1)
-              : "by \"" + study.parameters[to_index(study.tuned[to_index(k)])].name + "\"";
+    const std::string name = along ? "along direction " + std::to_string(k + 1)
+                                   : "by \"" + tuned_parameter(study, k).name + "\"";
     check->status = {StatusCode::kNonFiniteGradient, study.duration,
                      "the reference for the gradient " + name + " is not finite"};
     return;

@@ -21,15 +21,6 @@
 #include "text/number_text.h"
 
 namespace codesign {
-namespace {
-
-const std::string& tuned_name(const CompiledSystem& system, Eigen::Index k) {
-  const MotionStudy& study = system.study();
-  return study.parameters[to_index(study.tuned[to_index(k)])].name;
-}
-
-}  // namespace
-
 bool prefers_adjoint(const CompiledSystem& system) {
   // Postures have derivatives of their own.
   if (system.study().postures > 0) return false;
@@ -110,7 +101,8 @@ class Evaluator::Implementation {
     for (Eigen::Index k = 0; k < evaluation->gradient.size(); ++k)
       if (!is_possible(evaluation->gradient[k], k, *evaluation)) {
         evaluation->status = {StatusCode::kNonFiniteGradient, time,
-                              "the gradient by \"" + tuned_name(*system_, k) + "\" is " +
+                              "the gradient by \"" + tuned_parameter(system_->study(), k).name +
+                                  "\" is " +
                                   (std::isfinite(evaluation->gradient[k])
                                        ? readable(evaluation->gradient[k], 2) +
                                              ", beyond any size that the objective explains"
@@ -127,7 +119,7 @@ class Evaluator::Implementation {
   bool is_possible(double derivative, Eigen::Index k, const Evaluation& evaluation) const {
     constexpr double kLargest = 1e100;
     const MotionStudy& study = system_->study();
-    const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(k)])];
+    const Parameter& parameter = tuned_parameter(study, k);
     const double change = std::abs(derivative) * extent(parameter, parameter.value);
     return std::isfinite(derivative) &&
            !(change > kLargest * std::max(1.0, std::abs(evaluation.objective)));

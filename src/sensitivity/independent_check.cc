@@ -41,7 +41,7 @@ CheckedLine checked_line(const MotionStudy& study, const Eigen::VectorXd& rho,
                          const Eigen::VectorXd& gradient) {
   const Eigen::Index count = rho.size();
   const auto parameter = [&study](Eigen::Index k) -> const Parameter& {
-    return study.parameters[to_index(study.tuned[to_index(k)])];
+    return tuned_parameter(study, k);
   };
   Eigen::VectorXd sizes(count);
   for (Eigen::Index k = 0; k < count; ++k) sizes[k] = magnitude(parameter(k), rho[k]);

@@ -28,7 +28,7 @@ void OneSidedGradient::look_at_start(RosenbrockIntegrator* integrator,
       continue;
     add(equations.compiled().switch_origin(watch.mode(), to_index(guard)),
         "the run starts exactly where this switches: the derivatives, such as that by \"" +
-            name(largest(change)) +
+            tuned_parameter(system_->study(), largest(change)).name +
             "\", are those of designs on the side to which the motion leads, and do not hold on "
             "the other side");
   }
@@ -44,8 +44,9 @@ void OneSidedGradient::compare(const SwitchOrigin* origin, const Eigen::VectorXd
     size = std::max({size, std::abs(before[k]) * range(k), std::abs(behind[k]) * range(k)});
   const bool differs = std::abs(difference[worst]) * range(worst) > kSame * size;
   if (!differs && !moves) return;
-  add(origin, "the run ends exactly where this switches: the derivative by \"" + name(worst) +
-                  "\" is " + readable(before[worst]) +
+  add(origin, "the run ends exactly where this switches: the derivative by \"" +
+                  tuned_parameter(system_->study(), worst).name + "\" is " +
+                  readable(before[worst]) +
                   " for runs that end before the switch, as it is given here, and " +
                   readable(behind[worst]) + " for runs that pass it");
 }
@@ -59,15 +60,9 @@ Eigen::Index OneSidedGradient::largest(const Eigen::VectorXd& derivatives) const
 }
 
 double OneSidedGradient::range(Eigen::Index tuned) const {
-  const MotionStudy& study = system_->study();
-  const Parameter& parameter = study.parameters[to_index(study.tuned[to_index(tuned)])];
+  const Parameter& parameter = tuned_parameter(system_->study(), tuned);
   const double extent = codesign::extent(parameter, parameter.value);
   return extent > 0.0 ? extent : 1.0;
-}
-
-const std::string& OneSidedGradient::name(Eigen::Index tuned) const {
-  const MotionStudy& study = system_->study();
-  return study.parameters[to_index(study.tuned[to_index(tuned)])].name;
 }
 
 void OneSidedGradient::add(const SwitchOrigin* origin, const std::string& text) {

@@ -38,7 +38,6 @@ class OneSidedGradient {
   /// The parameter over whose range a derivative changes most.
   Eigen::Index largest(const Eigen::VectorXd& derivatives) const;
   double range(Eigen::Index tuned) const;
-  const std::string& name(Eigen::Index tuned) const;
   void add(const SwitchOrigin* origin, const std::string& text);
 
   const CompiledSystem* system_;

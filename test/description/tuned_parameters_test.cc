@@ -88,6 +88,8 @@ TEST(TunedParameters, StandInTheOrderOfTheStudy) {
   EXPECT_EQ(tuned_names(study), (std::vector<std::string>{"c", "a"}));
   EXPECT_EQ(parameters_at(study, Eigen::Vector2d(30.0, 10.0)),
             (std::vector<double>{10.0, 2.0, 30.0}));
+  EXPECT_EQ(tuned_parameter(study, 0).name, "c");
+  EXPECT_EQ(tuned_parameter(study, 1).name, "a");
 }
 
 TEST(TunedParameters, AreRequiredForASearch) {

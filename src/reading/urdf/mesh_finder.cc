@@ -2,7 +2,10 @@
 #include "reading/urdf/pictures.h"
 
 #include <cstdlib>
+#include <initializer_list>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 
 namespace codesign {
@@ -48,8 +51,26 @@ fs::path find_package(const std::string& name) {
   return {};
 }
 
-bool begins_with(const std::string& text, const std::string& start) {
+constexpr std::string_view kPackage = "package://", kModel = "model://", kFile = "file://";
+
+bool begins_with(const std::string& text, std::string_view start) {
   return text.compare(0, start.size(), start) == 0;
+}
+
+fs::path if_there(const fs::path& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored) ? path : fs::path();
+}
+
+/// The package and the path in it of a file with one of the schemes.
+std::optional<PackageFile> file_of_package(const std::string& uri,
+                                           std::initializer_list<std::string_view> schemes) {
+  for (const std::string_view scheme : schemes) {
+    const std::size_t slash = begins_with(uri, scheme) ? uri.find('/', scheme.size()) : uri.npos;
+    if (slash != uri.npos)
+      return PackageFile{uri.substr(scheme.size(), slash - scheme.size()), uri.substr(slash + 1)};
+  }
+  return {};
 }
 
 }  // namespace
@@ -74,38 +95,30 @@ fs::path package_around(const fs::path& model, const std::string& name) {
 
 }  // namespace
 
+/// A file below the folder of a package that ROS knows; empty: it is not there.
+fs::path MeshFinder::in_package(const PackageFile& file) {
+  const fs::path& folder = folder_of(file.package);
+  return folder.empty() ? fs::path() : if_there(folder / file.inside);
+}
+
 fs::path MeshFinder::find(const std::string& uri, const std::string& model) {
   std::error_code ignored;
-  const auto if_there = [&ignored](const fs::path& path) {
-    return fs::is_regular_file(path, ignored) ? path : fs::path();
-  };
-  const std::size_t scheme = uri.find("://");
   const fs::path of_model = fs::absolute(model, ignored);
-  if (scheme == std::string::npos) return if_there(of_model.parent_path() / uri);
-  const std::string rest = uri.substr(scheme + 3);
-  if (begins_with(uri, "file://")) return if_there(rest);
-  const std::size_t slash = rest.find('/');
-  if ((!begins_with(uri, "package://") && !begins_with(uri, "model://")) ||
-      slash == std::string::npos)
-    return {};
-  const std::string package = rest.substr(0, slash), inside = rest.substr(slash + 1);
-  const fs::path around = package_around(of_model, package);
+  if (uri.find("://") == std::string::npos) return if_there(of_model.parent_path() / uri);
+  if (begins_with(uri, kFile)) return if_there(uri.substr(kFile.size()));
+  const std::optional<PackageFile> file = file_of_package(uri, {kPackage, kModel});
+  if (!file) return {};
+  const fs::path around = package_around(of_model, file->package);
   if (!around.empty())
-    if (fs::path found = if_there(around / inside); !found.empty()) return found;
-  const fs::path& folder = folder_of(package);
-  return folder.empty() ? fs::path() : if_there(folder / inside);
+    if (fs::path found = if_there(around / file->inside); !found.empty()) return found;
+  return in_package(*file);
 }
 
 bool MeshFinder::is_there(const std::string& uri) {
-  static const std::string kPackage = "package://", kFile = "file://";
-  std::error_code ignored;
-  if (begins_with(uri, kFile)) return fs::is_regular_file(uri.substr(kFile.size()), ignored);
+  if (begins_with(uri, kFile)) return !if_there(uri.substr(kFile.size())).empty();
   if (!begins_with(uri, kPackage)) return uri.find("://") != std::string::npos;
-  const std::string rest = uri.substr(kPackage.size());
-  const std::size_t slash = rest.find('/');
-  if (slash == std::string::npos) return false;
-  const fs::path& folder = folder_of(rest.substr(0, slash));
-  return !folder.empty() && fs::is_regular_file(folder / rest.substr(slash + 1), ignored);
+  const std::optional<PackageFile> file = file_of_package(uri, {kPackage});
+  return file && !in_package(*file).empty();
 }
 
 }  // namespace codesign

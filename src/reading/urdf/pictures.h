@@ -40,6 +40,11 @@ using LinkBoxes = std::vector<std::vector<SolidBox>>;
 /// text cannot be read: this serves pictures only.
 LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links);
 
+/// A file of a package of ROS.
+struct PackageFile {
+  std::string package, inside;
+};
+
 /// Tells which meshes a viewer on this machine can load. A package of ROS is a folder of its name
 /// at most three levels below an entry of ROS_PACKAGE_PATH, or the entry itself.
 class MeshFinder {
@@ -55,6 +60,7 @@ class MeshFinder {
 
  private:
   const std::filesystem::path& folder_of(const std::string& package);
+  std::filesystem::path in_package(const PackageFile& file);
 
   std::map<std::string, std::filesystem::path> folders_;  ///< of packages; empty: not found
 };
