@@ -19,7 +19,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, NodesTestCase, content, listeners, wait_until  # noqa: E402
+from node_process import PATIENCE, NodesTestCase, content, wait_for_topic, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
 # An arm on a vertical axis. The rig has the inertia 0.3 and the damping 0.4.
@@ -104,7 +104,7 @@ class IdentifyTest(NodesTestCase):
         self.start_node("told", "  intervals: {profiles: true}\n")
         # The client drops feedback that the result has overtaken; the topic has all of it.
         client, told, topic = self.client("told"), [], Latest("/told/identification_progress", IdentificationProgress)
-        wait_until(lambda: topic.subscriber.get_num_connections() > 0 and listeners("/told", "/told/identification_progress") > 0, "no progress")
+        wait_for_topic("/told", topic.subscriber)
         client.send_goal(IdentifyGoal(), feedback_cb=lambda feedback: told.append(feedback.progress))
         self.assertTrue(client.wait_for_result(rospy.Duration(PATIENCE)))
         result = client.get_result()

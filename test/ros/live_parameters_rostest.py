@@ -18,7 +18,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
-from node_process import PATIENCE, SHARE, Node, state_of, values_of, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, Node, state_of, values_of, wait_for_topic, wait_until  # noqa: E402
 from robot_node import Latest, Robot  # noqa: E402
 
 NAME = "/robot/simulation"
@@ -33,7 +33,7 @@ class LiveParametersTest(unittest.TestCase):
         cls.updates = []
         cls.client = Client(NAME, timeout=PATIENCE, config_callback=cls.updates.append)
         cls.initial = dict(cls.client.get_configuration(PATIENCE))
-        wait_until(lambda: cls.loops.subscriber.get_num_connections() > 0, "no errors of loops")
+        wait_for_topic(NAME, cls.loops.subscriber)
         for _ in range(10):
             cls.robot.step()
 

@@ -157,10 +157,16 @@ class NodesTestCase(unittest.TestCase):
 
 
 def listeners(node, topic):
-    """How many subscribers a node sends a topic to. The master counts a subscriber earlier, when it is not connected yet and misses messages."""
+    """The names of the nodes that a node sends a topic to. The master and the listener count one earlier, when it still misses messages."""
     master = rosgraph.Master(rospy.get_name())
     _, _, connections = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo(rospy.get_name())
-    return sum((direction, sent) == ("o", topic) for _, _, direction, _, sent, *_ in connections)
+    return {listener for _, listener, direction, _, sent, *_ in connections if (direction, sent) == ("o", topic)}
+
+
+def wait_for_topic(node, topic):
+    """Until a node sends a topic, a rospy.Subscriber, to this one."""
+    wait_until(lambda: topic.get_num_connections() > 0 and rospy.get_name() in listeners(node, topic.resolved_name),
+               f"{node} does not publish {topic.resolved_name}")
 
 
 def files(folder, ending):

@@ -16,7 +16,7 @@ from mechanism_codesign.msg import OptimizationProgress, OptimizeAction, Optimiz
 from mechanism_codesign.srv import EvaluateRequest, OptimizeRequest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from node_process import PATIENCE, SHARE, NodesTestCase, content, files, listeners, wait_until  # noqa: E402
+from node_process import PATIENCE, SHARE, NodesTestCase, content, files, wait_for_topic, wait_until  # noqa: E402
 from robot_node import Latest  # noqa: E402
 
 # Searches over two runs at three samples, on two threads: 36 runs of screening, then searches, then 400 runs of validation.
@@ -140,7 +140,7 @@ class ResumeTest(NodesTestCase):
         self.start_node("told", study=self.study(BLOCKS.replace("validate: 200", "validate: 400"), duration="1.0"))
         # The client drops feedback that the result has overtaken; the topic has all of it.
         topic = Latest("/told/optimization_progress", OptimizationProgress)
-        wait_until(lambda: topic.subscriber.get_num_connections() > 0 and listeners("/told", "/told/optimization_progress") > 0, "no progress")
+        wait_for_topic("/told", topic.subscriber)
         job = Job("told", OptimizeGoal(max_evaluations=12))
         result = job.result()
         self.assertTrue(result.success, result.message)

@@ -4,7 +4,7 @@ import re
 
 import rospy
 from mechanism_codesign.msg import Commands, ControllerStates
-from node_process import PATIENCE, wait_until
+from node_process import PATIENCE, wait_for_topic, wait_until
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Trigger
 
@@ -33,7 +33,8 @@ class Robot:
         self.joints = Latest(f"{robot}/joint_states", JointState)
         self.controllers = Latest(f"{robot}/controller_states", ControllerStates)
         self.commands = Latest(f"{robot}/commands", Commands)
-        wait_until(lambda: all(each.subscriber.get_num_connections() > 0 for each in (self.joints, self.controllers)), "the node publishes nothing")
+        for each in (self.joints, self.controllers):
+            wait_for_topic(self.node, each.subscriber)
         if paused:
             response = self.call("step")
             assert response.success, response.message

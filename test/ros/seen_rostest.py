@@ -76,7 +76,7 @@ class SeenTest(NodesTestCase):
         self.assertIn("no optimization and no identification is running", reply.message)
         told = []
         rospy.Subscriber("/cancelled/optimization_progress", OptimizationProgress, told.append)
-        wait_until(lambda: listeners("/cancelled", "/cancelled/optimization_progress") > 0, "the test does not listen")
+        wait_until(lambda: listeners("/cancelled", "/cancelled/optimization_progress"), "the test does not listen")
         thread, answers = self.optimize_in_background(node, LONG)
         wait_until(lambda: any(message.evaluation >= 2 for message in told), "no trial point")
         reply = self.cancel("cancelled")
@@ -105,7 +105,7 @@ class SeenTest(NodesTestCase):
             told = []
             rospy.Subscriber("/watched/optimization_progress", OptimizationProgress, told.append)
             # Points that come before a subscriber is connected are lost.
-            wait_until(lambda: listeners("/watched", "/watched/optimization_progress") == 2, "watch does not listen")
+            wait_until(lambda: len(listeners("/watched", "/watched/optimization_progress")) == 2, "watch does not listen")
             thread, answers = self.optimize_in_background(node, LONG)
             wait_until(lambda: len(watch.points()["points"]) >= 3, "no points on the page")
             state = watch.points()

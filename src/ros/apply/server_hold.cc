@@ -18,6 +18,7 @@
 #include <mutex>
 #include <optional>
 
+#include "ros/common/latched.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -149,7 +150,7 @@ std::string ServerHold::take(const std::string& server, const std::string& purpo
   const ros::WallTime now = ros::WallTime::now();
   message.stamp = ros::Time(now.sec, now.nsec);
   message.frame_id = purpose;
-  publisher.publish(message);
+  publish_latched(publisher, message);
   publishers_.push_back(publisher);
   return "";
 }

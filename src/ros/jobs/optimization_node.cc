@@ -17,6 +17,7 @@
 #include "ros/apply/apply.h"
 #include "ros/bags/bag_files.h"
 #include "ros/common/inputs.h"
+#include "ros/common/latched.h"
 #include "ros/common/parameters.h"
 #include "ros/jobs/messages.h"
 #include "ros/jobs/request.h"
@@ -48,7 +49,7 @@ void publish_description(const std::string& urdf, const ros::Publisher& publishe
   if (urdf.empty()) return;
   std_msgs::String description;
   description.data = urdf;
-  publisher.publish(description);
+  publish_latched(publisher, description);
 }
 
 std::string share_of(std::uint64_t done, std::uint64_t of) {

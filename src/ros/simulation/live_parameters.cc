@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "math/arrays.h"
+#include "ros/common/latched.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -104,9 +105,9 @@ LiveParameters::LiveParameters(ros::NodeHandle node, const std::vector<Parameter
     : parameters_(parameters), state_(state), bell_(bell), values_(values) {
   descriptions_ =
       node.advertise<dynamic_reconfigure::ConfigDescription>("parameter_descriptions", 1, true);
-  descriptions_.publish(describe_parameters(parameters_));
+  publish_latched(descriptions_, describe_parameters(parameters_));
   updates_ = node.advertise<dynamic_reconfigure::Config>("parameter_updates", 1, true);
-  updates_.publish(config_of(parameters_, values_));
+  publish_latched(updates_, config_of(parameters_, values_));
   const boost::function<bool(dynamic_reconfigure::ReconfigureRequest&,
                              dynamic_reconfigure::ReconfigureResponse&)>
       callback = [this](dynamic_reconfigure::ReconfigureRequest& request,
@@ -148,7 +149,7 @@ bool LiveParameters::serve(const std::function<Status(const std::vector<double>&
   status_ = status;
   if (status.ok()) {
     values_ = wanted;
-    updates_.publish(config_of(parameters_, values_));
+    publish_latched(updates_, config_of(parameters_, values_));
   }
   wanted_.reset();
   answered_.notify_all();

@@ -21,6 +21,7 @@
 #include "reading/urdf/urdf_reader.h"
 #include "ros/bags/bag_files.h"
 #include "ros/common/inputs.h"
+#include "ros/common/latched.h"
 #include "ros/common/parameters.h"
 #include "ros/common/run_node.h"
 #include "text/nearest_name.h"
@@ -158,7 +159,7 @@ void SimulationNode::tell_description() {
   message.data = with_sticks(urdf);
   if (message.data == description_) return;
   description_ = message.data;
-  description_publisher_.publish(message);
+  publish_latched(description_publisher_, message);
   state_.warn("description", check_description(node_, *problem_, urdf, description_));
 }
 
@@ -171,7 +172,7 @@ MessageContext SimulationNode::context(double time) const {
 void SimulationNode::set_scene() {
   scene_.emplace(*problem_, description_, options_.style, [this] { return stopping(); });
   options_.style = scene_->style();
-  scene_publisher_.publish(scene_->message(context(0.0)));
+  publish_latched(scene_publisher_, scene_->message(context(0.0)));
 }
 
 void SimulationNode::place_root() {

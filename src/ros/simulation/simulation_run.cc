@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "problem/load_problem.h"
+#include "ros/common/latched.h"
 #include "ros/simulation/simulation_node.h"
 #include "text/number_text.h"
 
@@ -203,7 +204,7 @@ void SimulationNode::tell_commands() {
   mechanism_codesign::Commands commands = commanded_->message(frame_.time);
   bag_.record(commands, frame_.time);
   commands.header.stamp = clock_.stamp(frame_.time);
-  commands_publisher_.publish(commands);
+  publish_latched(commands_publisher_, commands);
   if (!commanded_->is_timed_out()) return state_.warn("command timeout", {});
   state_.warn("command timeout",
               {{"command_timeout",
