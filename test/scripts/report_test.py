@@ -317,10 +317,13 @@ class Report(unittest.TestCase):
         folder = self.path("folded")
         os.makedirs(folder)
         names = [f"joint_{k}/{quantity}" for k in range(30) for quantity in ("position", "velocity")]
+        stop = {"joint": "joint_7", "number": "stop width", "unit": "rad"}
         files = {"result.json": json.dumps({"objective": 1.0, "gradient": {"g1": 0.0}, "termination": "success", "evaluations": 1,
                                             "warnings": [{"code": "a_code", "message": "a doubt"}]}),
                  "details.json": json.dumps({"parameters": [{"name": f"g{k}", "initial": 1.0, "value": 2.0, "lower": 0.0, "upper": 3.0, "unit": "", "tuned": k < 2}
-                                                            for k in range(40)]}),
+                                                            for k in range(40)],
+                                             "initial": {"machine_numbers": [{**stop, "value": 0.0123}]},
+                                             "tuned": {"machine_numbers": [{**stop, "value": 0.0456}]}}),
                  "job_study.yaml": "duration: 1\nobjective: {terminal: [{signal: joint_7/position}]}\n",
                  "tuned.csv": ",".join(["time", *names]) + "\n" + "".join(",".join([str(t), *("1.5" for _ in names)]) + "\n" for t in (0, 1))}
         for name, text in files.items():
@@ -331,6 +334,10 @@ class Report(unittest.TestCase):
         self.assertEqual([tag for tag, _ in page.tags].count("figure"), 60)
         self.assertEqual(text.count("<details>"), page.seen.count("details"), "nothing is folded twice")
         self.assertIn("38 parameters that were not tuned", page.text)
+        self.assertIn("Numbers that follow the machine: 1", page.text)
+        for value in ("0.0123", "0.0456"):
+            self.assertIn([value, value], page.data)
+            self.assertLess(text.index("stop width"), text.index(value))
         self.assertLess(page.seen.count("tr"), 12)
         self.assertLess(text.index("a doubt"), text.index('aria-label="Tuned parameters"'), "doubts come first")
 
