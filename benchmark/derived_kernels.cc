@@ -6,7 +6,7 @@
 
 #include "benchmark/constraint_kernels.h"
 #include "codegen/derivatives.h"
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 
 namespace codesign {
 namespace {

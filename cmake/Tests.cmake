@@ -113,7 +113,7 @@ endforeach()
 
 # What several threads do at once, compiled for the thread sanitizer with the tests themselves: tools/sanitize thread.
 if(CODESIGN_SANITIZE MATCHES thread)
-  set(thread_tests equations/equation_code integration/simulation description/expression reading/urdf/urdfdom_check ros/common/worker sensitivity/threads
+  set(thread_tests equations/equation_variant integration/simulation description/expression reading/urdf/urdfdom_check ros/common/worker sensitivity/threads
     engine/evaluation_engine engine/mpi_engine engine/dispatcher)
   list(TRANSFORM thread_tests REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/test/\\1_test.cc")
   add_executable(test_threads EXCLUDE_FROM_ALL ${thread_tests} ${PROJECT_SOURCE_DIR}/src/ros/common/worker.cc ${fixtures})

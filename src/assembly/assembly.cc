@@ -193,19 +193,20 @@ double Assembly::largest_turn(const std::vector<int>& free, const Eigen::MatrixX
   return largest;
 }
 
-Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations<double>* equations,
-                                const std::vector<int>& free, double rank_tolerance) {
+Assembly::Closure Assembly::newton(const std::vector<double>& parameters,
+                                   Equations<double>* equations, const std::vector<int>& free,
+                                   double rank_tolerance) {
   double previous = std::numeric_limits<double>::infinity(), closed = kClosed;
   LoopMiss nearest{"", previous, previous};
   for (int iteration = 0; iteration < kNewtonIterations; ++iteration) {
-    if (cancelled()) return Rest::kApart;
+    if (cancelled()) return Closure::kApart;
     const double error = find_errors(parameters, equations);
-    if (!std::isfinite(error)) return Rest::kApart;
+    if (!std::isfinite(error)) return Closure::kApart;
     if (size_of(worst_miss_) < size_of(nearest)) nearest = worst_miss_;
     // Converged when rounding stops the quadratic decrease.
     const double size = 1.0 + theta_.cwiseAbs().maxCoeff();
     closed = kClosed * size;
-    if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Rest::kClosed;
+    if (error == 0.0 || (error < closed && error >= 0.5 * previous)) return Closure::kClosed;
     previous = error;
     const Eigen::MatrixXd& step = newton_step(parameters, *equations, free, rank_tolerance);
     const double largest = largest_turn(free, step),
@@ -214,10 +215,10 @@ Assembly::Rest Assembly::newton(const std::vector<double>& parameters, Equations
       theta_[free[k]] -= shortened * step(to_signed(k), 0);
     if (step.size() == 0 || (error >= closed && step.cwiseAbs().maxCoeff() < kAtRest * size)) break;
   }
-  if (previous < closed) return Rest::kClosed;
-  if (is_near()) return Rest::kNear;
+  if (previous < closed) return Closure::kClosed;
+  if (is_near()) return Closure::kNear;
   worst_miss_ = nearest;
-  return Rest::kApart;
+  return Closure::kApart;
 }
 
 bool Assembly::is_near() const {
@@ -235,8 +236,8 @@ void Assembly::note_miss(const VectorX<double>& errors, const Equations<double>&
 
 // If changing the dependent coordinates alone does not close the loops, the start may be singular
 // (a stretched-out linkage): then all coordinates without a given position are changed.
-Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<double>* equations,
-                               double rank_tolerance) {
+Assembly::Closure Assembly::close(const std::vector<double>& parameters,
+                                  Equations<double>* equations, double rank_tolerance) {
   const ColumnPreferences& preferences = work_.positions;
   prefer_positions();
   work_.open.clear();
@@ -247,14 +248,14 @@ Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<
   rank_tolerance_ = rank_tolerance;
   scale_loops(parameters, *equations);
   work_.free = choose_columns(preferences);
-  const Rest rest = newton(parameters, equations, work_.free, rank_tolerance);
+  const Closure closure = newton(parameters, equations, work_.free, rank_tolerance);
   work_.moved = work_.free;
-  if (rest != Rest::kApart) return rest;
+  if (closure != Closure::kApart) return closure;
   const LoopMiss miss = worst_miss_;
   theta_ = work_.first;
   work_.moved = work_.open;
-  const Rest second = newton(parameters, equations, work_.open, rank_tolerance);
-  if (second == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
+  const Closure second = newton(parameters, equations, work_.open, rank_tolerance);
+  if (second == Closure::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
   return second;
 }
 
@@ -263,7 +264,7 @@ Assembly::Rest Assembly::close(const std::vector<double>& parameters, Equations<
 void Assembly::refine(const std::vector<double>& parameters, Equations<double>* equations) {
   work_.near = theta_;
   const LoopMiss miss = worst_miss_;
-  const bool closes = close(parameters, equations, kSingularRank) == Rest::kClosed;
+  const bool closes = close(parameters, equations, kSingularRank) == Closure::kClosed;
   if (closes && (theta_ - work_.near).cwiseAbs().maxCoeff() < kSamePlace) return;
   theta_ = work_.near;
   worst_miss_ = miss;
@@ -277,23 +278,23 @@ Status Assembly::closure_failed() const {
               "' cannot be closed from the given initial state"};
 }
 
-Assembly::Rest Assembly::close_from_start(const std::vector<double>& parameters,
-                                          Equations<double>* equations) {
+Assembly::Closure Assembly::close_from_start(const std::vector<double>& parameters,
+                                             Equations<double>* equations) {
   work_.start = theta_;
-  Rest rest = close(parameters, equations, kRank);
-  if (rest == Rest::kNear) refine(parameters, equations);
-  if (rest != Rest::kApart) return rest;
+  Closure closure = close(parameters, equations, kRank);
+  if (closure == Closure::kNear) refine(parameters, equations);
+  if (closure != Closure::kApart) return closure;
   const LoopMiss miss = worst_miss_;
   theta_ = work_.start;
-  rest = close(parameters, equations, kSingularRank);
-  if (rest == Rest::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
-  return rest;
+  closure = close(parameters, equations, kSingularRank);
+  if (closure == Closure::kApart && size_of(miss) < size_of(worst_miss_)) worst_miss_ = miss;
+  return closure;
 }
 
 Status Assembly::solve_positions(const std::vector<double>& parameters,
                                  Equations<double>* equations) {
   all_rows_count_ = true;
-  if (close_or_nudge(parameters, equations) == Rest::kApart) return closure_failed();
+  if (close_or_nudge(parameters, equations) == Closure::kApart) return closure_failed();
   all_rows_count_ = !system_.sharing().drops();
   if (all_rows_count_) return {};
   // Now the enforced rows alone, to rounding: the integrators start from Phi = 0 in these rows.
@@ -301,7 +302,8 @@ Status Assembly::solve_positions(const std::vector<double>& parameters,
   prefer_positions();
   scale_loops(parameters, *equations);
   work_.free = choose_columns(work_.positions);
-  if (newton(parameters, equations, work_.free, rank_tolerance_) != Rest::kClosed || !is_near()) {
+  if (newton(parameters, equations, work_.free, rank_tolerance_) != Closure::kClosed ||
+      !is_near()) {
     worst_miss_ = miss;
     return closure_failed();
   }

@@ -192,7 +192,7 @@ class Assembly {
     std::vector<bool> not_open;
   };
   /// Result of Newton's method: closed to rounding, within the closure tolerance, or neither.
-  enum class Rest { kClosed, kNear, kApart };
+  enum class Closure { kClosed, kNear, kApart };
   /// The solution at the study's own design, from which other designs are continued.
   struct Origin {
     bool is_known = false;
@@ -216,24 +216,24 @@ class Assembly {
   Status solve_velocities(const std::vector<double>& parameters, Equations<double>* equations);
   Status close_from(const TreeCoordinates& from, const std::vector<double>& parameters,
                     Equations<double>* equations);
-  Rest close(const std::vector<double>& parameters, Equations<double>* equations,
-             double rank_tolerance);
-  Rest newton(const std::vector<double>& parameters, Equations<double>* equations,
-              const std::vector<int>& free, double rank_tolerance);
+  Closure close(const std::vector<double>& parameters, Equations<double>* equations,
+                double rank_tolerance);
+  Closure newton(const std::vector<double>& parameters, Equations<double>* equations,
+                 const std::vector<int>& free, double rank_tolerance);
   double find_errors(const std::vector<double>& parameters, Equations<double>* equations);
   const Eigen::MatrixXd& newton_step(const std::vector<double>& parameters,
                                      const Equations<double>& equations,
                                      const std::vector<int>& free, double rank_tolerance);
   double largest_turn(const std::vector<int>& free, const Eigen::MatrixXd& step) const;
-  Rest close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations);
-  Rest nearest_to_guess(Rest plain, const std::vector<double>& parameters,
-                        Equations<double>* equations);
+  Closure close_or_nudge(const std::vector<double>& parameters, Equations<double>* equations);
+  Closure nearest_to_guess(Closure plain, const std::vector<double>& parameters,
+                           Equations<double>* equations);
   void descend(const std::vector<double>& parameters, Equations<double>* equations,
                const std::vector<int>& columns, double most);
   std::vector<int> guessed_coordinates() const;
   double distance_from(const VectorX<double>& start, const std::vector<int>& guessed,
                        const VectorX<double>& levers) const;
-  Rest close_from_start(const std::vector<double>& parameters, Equations<double>* equations);
+  Closure close_from_start(const std::vector<double>& parameters, Equations<double>* equations);
   Status keep_branch(const Status& plain, const std::vector<double>& parameters,
                      Equations<double>* equations);
   bool follow(const std::vector<double>& parameters, Equations<double>* equations);

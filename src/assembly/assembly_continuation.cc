@@ -181,12 +181,13 @@ bool Assembly::converges_at_once(const std::vector<double>& parameters,
 
 /// The study's own start is tried again with small guesses for the joints along the loops that have
 /// neither position nor guess.
-Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
-                                        Equations<double>* equations) {
-  Rest plain = close_from_start(parameters, equations);
-  if (plain == Rest::kApart || is_own_design(parameters))
+Assembly::Closure Assembly::close_or_nudge(const std::vector<double>& parameters,
+                                           Equations<double>* equations) {
+  Closure plain = close_from_start(parameters, equations);
+  if (plain == Closure::kApart || is_own_design(parameters))
     plain = nearest_to_guess(plain, parameters, equations);
-  if (plain != Rest::kApart || !is_own_design(parameters) || origin_.nudge.size() > 0) return plain;
+  if (plain != Closure::kApart || !is_own_design(parameters) || origin_.nudge.size() > 0)
+    return plain;
   constexpr double kNudge = 0.01;  // [rad], or this part of the loop's longest lever
   const VectorX<double> start = work_.start, apart = theta_;
   const LoopMiss miss = worst_miss_;
@@ -204,8 +205,8 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
       nudge[open[k]] = kNudge * columns[open[k]] * ((k * period / 2) % 2 == 0 ? 1.0 : -1.0);
     theta_ = start + nudge;
     follow_couplings(*equations);
-    const Rest rest = close_from_start(parameters, equations);
-    if (rest == Rest::kApart) continue;
+    const Closure closure = close_from_start(parameters, equations);
+    if (closure == Closure::kApart) continue;
     warnings_.push_back(
         {"guessed_start",
          "loop or coupling '" + std::string(miss.owner) +
@@ -215,7 +216,7 @@ Assembly::Rest Assembly::close_or_nudge(const std::vector<double>& parameters,
              guesses_for(nudge, open) + "}, with other signs for another direction",
          {}});
     origin_.nudge = nudge;
-    return rest;
+    return closure;
   }
   theta_ = apart;
   worst_miss_ = miss;

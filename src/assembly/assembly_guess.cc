@@ -73,20 +73,20 @@ std::vector<int> Assembly::guessed_coordinates() const {
 /// Of the branches that are found from starts near the guesses, the one nearest to them takes the
 /// place of the solution of Newton's method, `plain`, which may be a far one: near a dead centre,
 /// and where other coordinates have no guess. Coordinates that the loops do not determine stay.
-Assembly::Rest Assembly::nearest_to_guess(Rest plain, const std::vector<double>& parameters,
-                                          Equations<double>* equations) {
+Assembly::Closure Assembly::nearest_to_guess(Closure plain, const std::vector<double>& parameters,
+                                             Equations<double>* equations) {
   const VectorX<double> start = work_.start;
   const std::vector<int> guessed = guessed_coordinates();
   if (guessed.empty()) return plain;
   struct Branch {
-    Rest rest;
+    Closure closure;
     VectorX<double> theta;
     std::vector<int> moved;
     double rank_tolerance;
     LoopMiss miss;
   };
   Branch best{plain, theta_, work_.moved, rank_tolerance_, worst_miss_};
-  const bool closes = plain != Rest::kApart;
+  const bool closes = plain != Closure::kApart;
   theta_ = start;
   if (!closes) rank_tolerance_ = best.rank_tolerance = kSingularRank;
   scale_loops(parameters, *equations);
@@ -111,12 +111,12 @@ Assembly::Rest Assembly::nearest_to_guess(Rest plain, const std::vector<double>&
     theta_ = from;
     rank_tolerance_ = best.rank_tolerance;
     descend(parameters, equations, columns, most);
-    const Rest rest = newton(parameters, equations, free, best.rank_tolerance);
-    if (rest == Rest::kApart || (rest == Rest::kNear && best.rest == Rest::kClosed)) return;
+    const Closure closure = newton(parameters, equations, free, best.rank_tolerance);
+    if (closure == Closure::kApart || closure > best.closure) return;
     const double distance = distance_from(start, guessed, levers);
     if (!(distance < kNearer * nearest) || is_same(best.theta)) return;
     nearest = distance;
-    best = {rest, theta_, free, best.rank_tolerance, worst_miss_};
+    best = {closure, theta_, free, best.rank_tolerance, worst_miss_};
   };
   if (!is_near) {
     VectorX<double> other = best.theta;
@@ -131,7 +131,7 @@ Assembly::Rest Assembly::nearest_to_guess(Rest plain, const std::vector<double>&
   work_.moved = best.moved;
   rank_tolerance_ = best.rank_tolerance;
   worst_miss_ = best.miss;
-  return best.rest;
+  return best.closure;
 }
 
 }  // namespace codesign

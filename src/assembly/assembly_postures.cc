@@ -104,7 +104,7 @@ bool Assembly::walk_to_posture(double to, const std::vector<double>& parameters,
   time_ = posture_ = to;
   set_given_start(system_, tree_, parameters, posture_, &theta_, &theta_rate_);
   follow_couplings(*equations);
-  const bool lands = newton(parameters, equations, work_.free, kSingularRank) != Rest::kApart &&
+  const bool lands = newton(parameters, equations, work_.free, kSingularRank) != Closure::kApart &&
                      (theta_ - work_.followed).cwiseAbs().maxCoeff() < kLanding &&
                      is_singular_posture(parameters, *equations);
   if (lands) arrive();

@@ -7,9 +7,9 @@
 #include <memory>
 #include <utility>
 
-#include "equations/code_inputs.h"
 #include "equations/compressed_jacobian.h"
 #include "equations/transposed_code.h"
+#include "equations/variant_inputs.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -69,7 +69,7 @@ void CompiledEquations<T>::for_each_other(const Visit& visit) const {
 template <class T>
 void CompiledEquations<T>::set_design(const std::vector<T>& parameters) {
   parameters_ = parameters;
-  for (CodeInputs<T>& variant : variants_) variant.forget_design();
+  for (VariantInputs<T>& variant : variants_) variant.forget_design();
   multiplied_.clear();
   current_ = 0;
   for_each_other([&](auto* other) { other->set_design(parameters); });
@@ -107,7 +107,7 @@ void CompiledEquations<T>::expressions(const State<T>& state, VectorX<T>* values
   if constexpr (std::is_same_v<T, double>) {
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     evaluate({EquationFunction::kExpressions, Mode::kValues, state.t, state.turns},
-             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>* variant) {
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, VariantInputs<T>* variant) {
                values->resize(to_signed(variant->code().expressions()));
                std::transform(std::begin(parts), std::end(parts), arrays.begin(),
                               [](In<double> part) { return part.data(); });
@@ -155,7 +155,7 @@ CompressedJacobian& CompiledEquations<T>::compressed() {
 
 template <class T>
 bool CompiledEquations<T>::adopt() {
-  const EquationCode* const code = system_.equation_code(variants_.size(), part_);
+  const EquationVariant* const code = system_.equation_variant(variants_.size(), part_);
   if (code) variants_.emplace_back(code);
   return code != nullptr;
 }
@@ -163,7 +163,7 @@ bool CompiledEquations<T>::adopt() {
 template <class T>
 template <class Run>
 int CompiledEquations<T>::attempt(const Instant& instant, bool interpreted, const Run& run,
-                                  CodeInputs<T>* variant) {
+                                  VariantInputs<T>* variant) {
   const bool transposed = instant.mode == Mode::kTransposed;
   transposed ? variant->take_products(system_, parameters_) : variant->take_design(parameters_);
   if (variant->failed() >= 0) return variant->failed();
@@ -207,9 +207,9 @@ template <class Run>
 void CompiledEquations<T>::add_variant(const Instant& instant, const Run& run) {
   std::vector<bool> outcomes;
   for (;;) {
-    std::unique_ptr<EquationCode> code =
+    std::unique_ptr<EquationVariant> code =
         system_.record_variant(outcomes, part_, holds() ? mode_ : std::vector<bool>());
-    CodeInputs<T> variant(code.get());
+    VariantInputs<T> variant(code.get());
     const int failed = attempt(instant, true, run, &variant);
     // A decision within rounding that fails again stays as it is: both branches give the same
     // there.
@@ -232,7 +232,7 @@ void CompiledEquations<T>::run(EquationFunction function, double t,
     return reinterpret_cast<const CodeNumber<T>*>(array.data());
   };
   evaluate({function, Mode::kValues, t, turns},
-           [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+           [&](const CompiledFunction& code, CodeArrays<T> arrays, VariantInputs<T>*) {
              std::transform(std::begin(state), std::end(state), arrays.begin(), numbers);
              std::transform(std::begin(results), std::end(results),
                             arrays.begin() + Arrays::kResults, numbers);
@@ -255,7 +255,7 @@ void CompiledEquations<T>::tangents(EquationFunction function, double t,
     const auto first = [](In<double> array) { return array.data(); };
     holder(function).evaluate(
         {function, Mode::kSplit, t, turns},
-        [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+        [&](const CompiledFunction& code, CodeArrays<T> arrays, VariantInputs<T>*) {
           std::transform(std::begin(values), std::end(values), arrays.begin(), first);
           if (const int failed = run_values(code, arrays); failed >= 0) return failed;
           std::transform(std::begin(directions), std::end(directions), arrays.begin(), first);
@@ -277,7 +277,7 @@ bool CompiledEquations<T>::residual_tangents(const State<double>& state,
     const auto first = [](In<double> array) { return array.data(); };
     const EquationFunction function = EquationFunction::kResidual;
     evaluate({function, Mode::kSplit, state.t, state.turns},
-             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>* variant) {
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, VariantInputs<T>* variant) {
                std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
                if (const int failed = run_values(code, arrays); failed >= 0) return failed;
                const auto run_pass = [&](const Pass& pass) {
@@ -310,13 +310,13 @@ void CompiledEquations<T>::add_transposed(EquationFunction function, const State
     const In<double> parts[] = {state.q, state.v, state.s, state.z};
     const auto first = [](In<double> array) { return array.data(); };
     evaluate({function, Mode::kTransposed, state.t, state.turns},
-             [&](const CompiledFunction& code, CodeArrays<T> arrays, CodeInputs<T>*) {
+             [&](const CompiledFunction& code, CodeArrays<T> arrays, VariantInputs<T>*) {
                std::transform(std::begin(parts), std::end(parts), arrays.begin(), first);
                std::transform(std::begin(weights), std::end(weights),
                               arrays.begin() + Arrays::kResults, first);
                return run_values(code, arrays);
              });
-    CodeInputs<T>& variant = variants_[current_];
+    VariantInputs<T>& variant = variants_[current_];
     variant.take_products(system_, parameters_);
     if (std::find(multiplied_.begin(), multiplied_.end(), current_) == multiplied_.end())
       multiplied_.push_back(current_);
@@ -375,7 +375,7 @@ template <class T>
 const MassFactor* CompiledEquations<T>::mass_factor() {
   CompiledEquations& at = holder(EquationFunction::kAccelerations);
   if (at.variants_.empty()) at.adopt();
-  const EquationCode& code = at.variants_[at.current_].code();
+  const EquationVariant& code = at.variants_[at.current_].code();
   return code.has_accelerations() ? &code.mass_factor() : nullptr;
 }
 

@@ -17,14 +17,14 @@ namespace codesign {
 class CompiledSystem;
 class CompressedJacobian;
 template <class T>
-class CodeInputs;
+class VariantInputs;
 struct MassFactor;
 struct CompiledFunction;
 struct NumberedRecording;
 struct SwitchOrigin;
 
-/// The recorded equations of one design (EquationCode): machine code where it can be made, else a
-/// loop over the recorded operations. The results equal those of Formulas within rounding. T:
+/// The recorded equations of one design (EquationVariant): machine code where it can be made, else
+/// a loop over the recorded operations. The results equal those of Formulas within rounding. T:
 /// double, std::complex<double> (always by the loop) or Lanes<N>. No allocation after the first
 /// evaluation of a variant; not thread-safe.
 ///
@@ -173,7 +173,7 @@ class CompiledEquations {
   /// The first decision of a variant that the point makes otherwise; -1 if the results are valid.
   /// Machine code does not tell which one, 0.
   template <class Run>
-  int attempt(const Instant& instant, bool interpreted, const Run& run, CodeInputs<T>* variant);
+  int attempt(const Instant& instant, bool interpreted, const Run& run, VariantInputs<T>* variant);
   template <class Run>
   void evaluate(const Instant& instant, const Run& run);
   template <class Run>
@@ -192,9 +192,9 @@ class CompiledEquations {
   std::vector<double> time_direction_;                                     ///< N entries, or empty
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
   std::unique_ptr<CompressedJacobian>
-      compressed_;                       ///< for double, if the system compresses its Jacobian
-  std::vector<CodeInputs<T>> variants_;  ///< the first ones that the system knows, in its order
-  std::size_t current_ = 0;              ///< the variant that served last
+      compressed_;                          ///< for double, if the system compresses its Jacobian
+  std::vector<VariantInputs<T>> variants_;  ///< the first ones that the system knows, in its order
+  std::size_t current_ = 0;                 ///< the variant that served last
   std::vector<std::size_t>
       multiplied_;  ///< variants with products since set_design(), in the order of their first one
   std::vector<T> entries_;   ///< workspace of signal() and track_turns()

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "codegen/number_types.h"
-#include "equations/code_inputs.h"
 #include "equations/compiled_equations.h"
+#include "equations/variant_inputs.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -30,8 +30,8 @@ void CompiledEquations<T>::switches(const State<T>& state, VectorX<T>* differenc
 template <class T>
 const SwitchOrigin* CompiledEquations<T>::switch_origin(const std::vector<bool>& mode,
                                                         std::size_t k) const {
-  for (const CodeInputs<T>& variant : variants_) {
-    const EquationCode& code = variant.code();
+  for (const VariantInputs<T>& variant : variants_) {
+    const EquationVariant& code = variant.code();
     if (code.mode() == mode && k < mode.size()) return &code.switch_origins()[k];
   }
   return nullptr;

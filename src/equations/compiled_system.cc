@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "equations/equation_code.h"
+#include "equations/equation_recorder.h"
+#include "equations/equation_variant.h"
 #include "equations/equation_variants.h"
-#include "equations/recorded_equations.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -50,26 +50,26 @@ bool CompiledSystem::begins_explicitly() const {
   return solver.method == RosenbrockMethod::kAuto && compliance() == 0.0 && !has_dry_friction;
 }
 
-bool CompiledSystem::has_switches() const { return !equation_code()->mode().empty(); }
+bool CompiledSystem::has_switches() const { return !equation_variant()->mode().empty(); }
 
 bool CompiledSystem::ends_run(const std::vector<bool>& mode) const {
   if (!until()) return false;
-  for (std::size_t k = 0; const EquationCode* code = equation_code(k); ++k)
+  for (std::size_t k = 0; const EquationVariant* code = equation_variant(k); ++k)
     if (code->mode() == mode) return code->ends_run();
   return record_variant({}, EquationPart::kMotion, mode)->ends_run();
 }
 
-const EquationCode* CompiledSystem::equation_code(std::size_t k, EquationPart part) const {
+const EquationVariant* CompiledSystem::equation_variant(std::size_t k, EquationPart part) const {
   return variants_[to_index(part)]->at(k, *this, part);
 }
 
-std::unique_ptr<EquationCode> CompiledSystem::record_variant(std::vector<bool> outcomes,
-                                                             EquationPart part,
-                                                             std::vector<bool> mode) const {
-  return std::make_unique<EquationCode>(*this, part, std::move(outcomes), std::move(mode));
+std::unique_ptr<EquationVariant> CompiledSystem::record_variant(std::vector<bool> outcomes,
+                                                                EquationPart part,
+                                                                std::vector<bool> mode) const {
+  return std::make_unique<EquationVariant>(*this, part, std::move(outcomes), std::move(mode));
 }
 
-std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationCode> variant,
+std::size_t CompiledSystem::keep_variant(std::unique_ptr<EquationVariant> variant,
                                          EquationPart part) const {
   return variants_[to_index(part)]->keep(std::move(variant));
 }

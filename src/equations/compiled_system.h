@@ -12,7 +12,7 @@
 
 namespace codesign {
 
-class EquationCode;
+class EquationVariant;
 class EquationVariants;
 
 /// A System with everything that is made once for its equations and shared by all designs and
@@ -52,15 +52,15 @@ class CompiledSystem final : public System {
 
   /// The k-th variant of the equations' code; null if fewer are known. The first one is recorded by
   /// the first call. Thread-safe.
-  const EquationCode* equation_code(std::size_t k = 0,
-                                    EquationPart part = EquationPart::kMotion) const;
+  const EquationVariant* equation_variant(std::size_t k = 0,
+                                          EquationPart part = EquationPart::kMotion) const;
   /// The variant for given outcomes of the first decisions and, before them, of the first switches;
   /// not yet among those known.
-  std::unique_ptr<EquationCode> record_variant(std::vector<bool> outcomes,
-                                               EquationPart part = EquationPart::kMotion,
-                                               std::vector<bool> mode = {}) const;
+  std::unique_ptr<EquationVariant> record_variant(std::vector<bool> outcomes,
+                                                  EquationPart part = EquationPart::kMotion,
+                                                  std::vector<bool> mode = {}) const;
   /// Adds a variant to those known, unless it is one of them. @return its index. Thread-safe.
-  std::size_t keep_variant(std::unique_ptr<EquationCode> variant,
+  std::size_t keep_variant(std::unique_ptr<EquationVariant> variant,
                            EquationPart part = EquationPart::kMotion) const;
 
  private:

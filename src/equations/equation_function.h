@@ -30,14 +30,14 @@ enum class EquationFunction : std::size_t {
   kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
-  kSwitches,          ///< per switch of the residual, EquationCode::mode(), the difference y - x of
-                      ///< which it is the sign, positive where x < y; and y
-  kExpressions,       ///< the values of the study's expressions of signals, then g; values only
-  kRates,             ///< G, g, G_z; values only
-  kAccelerations,     ///< z with G = 0, g, values of MassFactor; values only, and only where
-                      ///< EquationCode::has_accelerations()
-  kEnergies,          ///< body_energies(), their bodies; values only, with a forest
-  kMotionEnd,         ///< number of functions of the part
+  kSwitches,       ///< per switch of the residual, EquationVariant::mode(), the difference y - x of
+                   ///< which it is the sign, positive where x < y; and y
+  kExpressions,    ///< the values of the study's expressions of signals, then g; values only
+  kRates,          ///< G, g, G_z; values only
+  kAccelerations,  ///< z with G = 0, g, values of MassFactor; values only, and only where
+                   ///< EquationVariant::has_accelerations()
+  kEnergies,       ///< body_energies(), their bodies; values only, with a forest
+  kMotionEnd,      ///< number of functions of the part
 
   kTerminal = 0,       ///< w
   kTerminalGradient,   ///< w, its gradient

@@ -8,19 +8,19 @@
 
 namespace codesign {
 
-const EquationCode* EquationVariants::at(std::size_t k, const CompiledSystem& system,
-                                         EquationPart part) {
+const EquationVariant* EquationVariants::at(std::size_t k, const CompiledSystem& system,
+                                            EquationPart part) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (variants_.empty())
-    variants_.push_back(std::make_unique<EquationCode>(system, part, std::vector<bool>(),
-                                                       std::vector<bool>(), std::move(begun_)));
+    variants_.push_back(std::make_unique<EquationVariant>(system, part, std::vector<bool>(),
+                                                          std::vector<bool>(), std::move(begun_)));
   return k < variants_.size() ? variants_[k].get() : nullptr;
 }
 
-std::size_t EquationVariants::keep(std::unique_ptr<EquationCode> variant) {
+std::size_t EquationVariants::keep(std::unique_ptr<EquationVariant> variant) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto known = std::find_if(variants_.begin(), variants_.end(),
-                                  [&](const std::unique_ptr<EquationCode>& other) {
+                                  [&](const std::unique_ptr<EquationVariant>& other) {
                                     return other->outcomes() == variant->outcomes();
                                   });
   const auto index = to_index(known - variants_.begin());

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "equations/equation_code.h"
-#include "equations/recorded_equations.h"
+#include "equations/equation_recorder.h"
+#include "equations/equation_variant.h"
 
 namespace codesign {
 
@@ -24,14 +24,14 @@ class EquationVariants {
       : begun_(std::move(begun)) {}
 
   /// The k-th variant; null if fewer are known. The first one is recorded by the first call for it.
-  const EquationCode* at(std::size_t k, const CompiledSystem& system, EquationPart part);
+  const EquationVariant* at(std::size_t k, const CompiledSystem& system, EquationPart part);
   /// Adds a variant, unless one with the same outcomes is known. @return its index.
-  std::size_t keep(std::unique_ptr<EquationCode> variant);
+  std::size_t keep(std::unique_ptr<EquationVariant> variant);
 
  private:
   std::mutex mutex_;
   std::unique_ptr<ResidualRecording> begun_;  ///< until the first variant takes it
-  std::deque<std::unique_ptr<EquationCode>> variants_;
+  std::deque<std::unique_ptr<EquationVariant>> variants_;
 };
 
 }  // namespace codesign

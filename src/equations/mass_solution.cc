@@ -6,7 +6,7 @@
 
 #include "codegen/interpreter.h"
 #include "description/expression.h"
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 

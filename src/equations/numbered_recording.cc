@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "equations/equation_code.h"
-#include "equations/recorded_equations.h"
+#include "equations/equation_recorder.h"
+#include "equations/equation_variant.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -44,7 +44,7 @@ void NumberedRecording::number_nodes() {
     if (node.a == Recording::kTimed)
       functions[to_index(node.b / Recording::kFunctionOrders)]
                [to_index(node.b % Recording::kFunctionOrders)] = entry;
-    if (node.a == RecordedEquations::kTurns && used[to_index(n)]) turns.push_back({node.b, entry});
+    if (node.a == EquationRecorder::kTurns && used[to_index(n)]) turns.push_back({node.b, entry});
   }
 }
 

@@ -9,7 +9,7 @@
 
 #include "codegen/derivatives.h"
 #include "control/reference.h"
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -40,7 +40,7 @@ class TransposedCode {
   /// The recording that the code below is made of. It begins with the nodes of the recording of the
   /// values, and its array kNumbers with the entries of theirs.
   const NumberedRecording& numbered() const { return numbered_; }
-  /// The code of one function, made by the first call; `held` as of EquationCode::Scalar. The
+  /// The code of one function, made by the first call; `held` as of EquationVariant::Scalar. The
   /// weights of the k-th array of results are array kResults + k.
   const CompiledFunction& function(EquationFunction function, bool interpreted, bool held) const {
     return code(functions_[to_index(function)], interpreted, held);

@@ -15,7 +15,7 @@ namespace codesign {
 /// that every sum of shapes begins and ends at rest.
 class TrajectoryBasis {
  public:
-  /// @param kind, period, harmonics or knots as the study's reader admits them
+  /// @param description as the study's reader admits it
   explicit TrajectoryBasis(const ExcitationDescription& description);
 
   Eigen::Index size() const { return size_; }

@@ -59,7 +59,7 @@ inline int keep_last_message(void* ida, SUNContext context, std::string* message
 
 /// Deleter for std::unique_ptr that calls a function of SUNDIALS.
 template <auto kFree>
-struct Release {
+struct IdasDeleter {
   template <class T>
   void operator()(T* object) const {
     kFree(object);
@@ -69,12 +69,12 @@ struct Release {
 inline void free_context(SUNContext context) { SUNContext_Free(&context); }
 inline void free_ida(void* ida) { IDAFree(&ida); }
 
-using ContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, Release<free_context>>;
-using IdaHandle = std::unique_ptr<void, Release<free_ida>>;
-using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, Release<N_VDestroy>>;
-using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, Release<SUNMatDestroy>>;
+using ContextHandle = std::unique_ptr<std::remove_pointer_t<SUNContext>, IdasDeleter<free_context>>;
+using IdaHandle = std::unique_ptr<void, IdasDeleter<free_ida>>;
+using VectorHandle = std::unique_ptr<std::remove_pointer_t<N_Vector>, IdasDeleter<N_VDestroy>>;
+using MatrixHandle = std::unique_ptr<std::remove_pointer_t<SUNMatrix>, IdasDeleter<SUNMatDestroy>>;
 using LinearSolverHandle =
-    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, Release<SUNLinSolFree>>;
+    std::unique_ptr<std::remove_pointer_t<SUNLinearSolver>, IdasDeleter<SUNLinSolFree>>;
 
 /// The numbers of a vector of SUNDIALS. SUNDIALS does not mark vectors that its callbacks only
 /// read.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "integration/event_names.h"
 #include "integration/mode_watch.h"
 #include "integration/step_control.h"

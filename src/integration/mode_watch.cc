@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "integration/event_names.h"
 #include "integration/step_control.h"
 #include "math/arrays.h"

@@ -15,13 +15,13 @@ namespace {
 
 /// The axes in which a component is told, and its unit. Two with the same `link` and `frame` have
 /// the same axes at all times.
-struct Told {
+struct ComponentAxes {
   int link = -1;     ///< the one nearest to the root with these axes
   int frame = -1;    ///< a loop whose successor's frame is turned against that link; else -1
   std::string name;  ///< of the link, or of that frame, as the user knows it
   const char* unit = "";
 
-  bool is_unlike(const Told& other) const {
+  bool is_unlike(const ComponentAxes& other) const {
     return std::strcmp(unit, other.unit) == 0 && (link != other.link || frame != other.frame);
   }
 };
@@ -61,10 +61,10 @@ int first_with_axes_of(const RobotDescription& robot, int link) {
 }
 
 /// Nothing of what is no vector.
-std::optional<Told> told(const SignalTerm& term, const RobotDescription& robot) {
+std::optional<ComponentAxes> told(const SignalTerm& term, const RobotDescription& robot) {
   const SignalFacts* facts = facts_of_term(term);
   if (facts == nullptr || facts->axes == SignalAxes::kNone) return std::nullopt;
-  Told result;
+  ComponentAxes result;
   result.unit = facts->unit;
   result.link = robot.root;
   if (!term.axes.empty()) {
@@ -86,12 +86,12 @@ std::optional<Told> told(const SignalTerm& term, const RobotDescription& robot) 
 /// long as only sums, differences and multiples are made of it.
 class FormulaCheck {
  public:
-  explicit FormulaCheck(const std::vector<std::optional<Told>>& variables)
+  explicit FormulaCheck(const std::vector<std::optional<ComponentAxes>>& variables)
       : variables_(variables) {}
 
   /// The unlike ones; null: none.
-  const Told* first = nullptr;
-  const Told* second = nullptr;
+  const ComponentAxes* first = nullptr;
+  const ComponentAxes* second = nullptr;
 
   void run(const ExpressionSteps& steps) {
     for (const ExpressionStep& step : steps) {
@@ -103,9 +103,9 @@ class FormulaCheck {
  private:
   using Code = ExpressionStep::Code;
 
-  const Told* pop() {
+  const ComponentAxes* pop() {
     if (stack_.empty()) return nullptr;
-    const Told* top = stack_.back();
+    const ComponentAxes* top = stack_.back();
     stack_.pop_back();
     return top;
   }
@@ -115,7 +115,7 @@ class FormulaCheck {
       case Code::kConstant:
         return stack_.push_back(nullptr);
       case Code::kVariable: {
-        const std::optional<Told>& variable = variables_[to_index(step.index)];
+        const std::optional<ComponentAxes>& variable = variables_[to_index(step.index)];
         return stack_.push_back(variable ? &*variable : nullptr);
       }
       case Code::kNegate:
@@ -130,7 +130,7 @@ class FormulaCheck {
       default:
         break;
     }
-    const Told *right = pop(), *left = pop();
+    const ComponentAxes *right = pop(), *left = pop();
     const bool adds = step.code == Code::kAdd || step.code == Code::kSubtract;
     if (adds && left != nullptr && right != nullptr && left->is_unlike(*right)) {
       first = left;
@@ -138,20 +138,20 @@ class FormulaCheck {
     }
     const bool scales = step.code == Code::kMultiply && (left == nullptr || right == nullptr);
     const bool divides = step.code == Code::kDivide && right == nullptr;
-    const Told* kept = left != nullptr ? left : right;
+    const ComponentAxes* kept = left != nullptr ? left : right;
     stack_.push_back(adds || scales || divides ? kept : nullptr);
   }
 
-  const std::vector<std::optional<Told>>& variables_;
-  std::vector<const Told*> stack_;
+  const std::vector<std::optional<ComponentAxes>>& variables_;
+  std::vector<const ComponentAxes*> stack_;
 };
 
 std::string spelled(const SignalTerm& term, const char* axes) {
   return term.object + "/" + term.quantity + "/" + term.component + "@" + axes;
 }
 
-[[noreturn]] void refuse_sum(const SignalDescription& signal, const Told& first, const Told& second,
-                             const std::string& element) {
+[[noreturn]] void refuse_sum(const SignalDescription& signal, const ComponentAxes& first,
+                             const ComponentAxes& second, const std::string& element) {
   std::string allowed = "all of them in the axes of one link";
   const char* separator = ": ";
   for (const SignalTerm& term : signal.terms) {
@@ -193,7 +193,7 @@ int link_of_axes(const SignalTerm& term, const RobotDescription& robot) {
 
 void check_axes(const SignalDescription& signal, const RobotDescription& robot,
                 const std::string& element) {
-  std::vector<std::optional<Told>> terms;
+  std::vector<std::optional<ComponentAxes>> terms;
   for (const SignalTerm& term : signal.terms) {
     if (!term.axes.empty()) check_name(term, robot, signal, element);
     terms.push_back(told(term, robot));
@@ -205,7 +205,7 @@ void check_axes(const SignalDescription& signal, const RobotDescription& robot,
           refuse_sum(signal, *terms[other], *terms[k], element);
     return;
   }
-  std::vector<std::optional<Told>> variables;
+  std::vector<std::optional<ComponentAxes>> variables;
   std::size_t next = 0;
   for (const std::string& name : signal.formula->names)
     variables.push_back(name.find('/') != std::string::npos ? terms[next++] : std::nullopt);

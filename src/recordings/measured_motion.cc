@@ -27,9 +27,9 @@ double slope_at(const std::vector<double>& t, const std::vector<double>& x, std:
 
 /// The value in the interval that begins with sample k, at the fraction `u` of it.
 double value_in(const std::vector<double>& t, const std::vector<double>& x, std::size_t k, double u,
-                Between between) {
+                Resampling between) {
   const double rise = x[k + 1] - x[k];
-  if (between == Between::kLinear) return x[k] + u * rise;
+  if (between == Resampling::kLinear) return x[k] + u * rise;
   const double h = t[k + 1] - t[k], from = h * slope_at(t, x, k) - rise,
                to = rise - h * slope_at(t, x, k + 1);
   return x[k] + u * rise + u * (1.0 - u) * ((1.0 - u) * from + u * to);
@@ -115,7 +115,7 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
   JointMotion motion;
   motion.joint = samples.joint;
   const auto smooth = [&](const std::vector<double>& column) {
-    Eigen::VectorXd values = resample(times, column, uniform, Between::kCubic);
+    Eigen::VectorXd values = resample(times, column, uniform, Resampling::kCubic);
     if (filter) filter->apply(values, workspace);
     return values;
   };
@@ -130,7 +130,7 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
     motion.position = integral(motion.velocity, uniform.step).array() + samples.start->value;
   if (motion.velocity.size() > 0) motion.acceleration = derivative(motion.velocity, uniform.step);
   if (!samples.effort.empty())
-    motion.effort = resample(times, samples.effort, uniform, Between::kLinear);
+    motion.effort = resample(times, samples.effort, uniform, Resampling::kLinear);
   return motion;
 }
 
@@ -154,7 +154,7 @@ UniformTimes uniform_times(const std::vector<double>& times) {
 }
 
 Eigen::VectorXd resample(const std::vector<double>& times, const std::vector<double>& values,
-                         const UniformTimes& uniform, Between between) {
+                         const UniformTimes& uniform, Resampling between) {
   if (uniform.exact) return Eigen::Map<const Eigen::VectorXd>(values.data(), uniform.count);
   Eigen::VectorXd result(uniform.count);
   std::size_t k = 0;

@@ -27,7 +27,7 @@ struct UniformTimes {
 UniformTimes uniform_times(const std::vector<double>& times);
 
 /// How values between samples are interpolated; doc/theory.md (30).
-enum class Between {
+enum class Resampling {
   kLinear,  ///< for efforts, which may jump: a cubic would overshoot at a jump
   kCubic    ///< for smooth motion, by cubics with slopes of the parabola through three neighbours:
             ///< linear pieces would have no acceleration
@@ -35,7 +35,7 @@ enum class Between {
 
 /// Values at the uniform times. @param times ascending, at least three. @param values one per time
 Eigen::VectorXd resample(const std::vector<double>& times, const std::vector<double>& values,
-                         const UniformTimes& uniform, Between between);
+                         const UniformTimes& uniform, Resampling between);
 
 /// The derivative of equally spaced samples [unit/s]; doc/theory.md (31). By central differences of
 /// eighth order, at the four samples next to the ends of order six, four and two, and at the ends

@@ -14,10 +14,10 @@ constexpr double kFarthest = 1e3;     // in first steps
 constexpr int kMostEvaluations = 40;  // per side
 
 /// One side of the optimum, as a function of the distance s from it.
-class Side {
+class ProfileSide {
  public:
-  Side(const ProfileProblem& problem, const ProfiledCost& cost, double direction,
-       ProfileInterval* interval)
+  ProfileSide(const ProfileProblem& problem, const ProfiledCost& cost, double direction,
+              ProfileInterval* interval)
       : problem_(problem), cost_(cost), direction_(direction), interval_(interval) {}
 
   struct End {
@@ -93,8 +93,8 @@ class Side {
 
 ProfileInterval profile_interval(const ProfileProblem& problem, const ProfiledCost& cost) {
   ProfileInterval interval;
-  const auto below = Side(problem, cost, -1.0, &interval).find(),
-             above = Side(problem, cost, 1.0, &interval).find();
+  const auto below = ProfileSide(problem, cost, -1.0, &interval).find(),
+             above = ProfileSide(problem, cost, 1.0, &interval).find();
   interval.lower = problem.optimum - below.distance;
   interval.upper = problem.optimum + above.distance;
   interval.lower_end = below.kind;

@@ -33,15 +33,15 @@ namespace {
 /// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at
 /// theta = 0.
 template <class T>
-struct JointMotion {
+struct RelativeMotion {
   Pose<T> X;
   Vector3<T> omega = Vector3<T>::Zero(), velocity = Vector3<T>::Zero();  // in the joint frame
 };
 
 template <class T>
-JointMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters,
-                            In<T> theta, In<T> rate) {
-  JointMotion<T> m;
+RelativeMotion<T> joint_motion(const JointDescription& joint, const std::vector<T>& parameters,
+                               In<T> theta, In<T> rate) {
+  RelativeMotion<T> m;
   int k = 0;
   visit_steps(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
     const Vector3<T> u = m.X.R * axis;
@@ -100,8 +100,8 @@ void link_motions(const RobotDescription& robot, const TreeLayout& layout,
     LinkMotion<T>& child = links[to_index(joint.child)];
     const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
     const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
-    const JointMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count),
-                                          In<T>(theta_rate).subspan(first, count));
+    const RelativeMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count),
+                                             In<T>(theta_rate).subspan(first, count));
     child.X = X_GF * m.X;
     child.omega = parent.omega + X_GF.R * m.omega;
     child.velocity =
@@ -124,7 +124,7 @@ void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
     double unit[6] = {};
     for (int c = 0; c < count; ++c) {
       unit[c] = 1.0;
-      const JointMotion<double> m =
+      const RelativeMotion<double> m =
           joint_motion(joint, parameters, In<double>(theta).subspan(first, count), unit);
       twists[to_index(first + c)] = {R * m.omega, R * m.velocity, links[to_index(joint.child)].X.t};
       unit[c] = 0.0;

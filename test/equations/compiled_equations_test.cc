@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "equations/generic_state.h"
 #include "equations/joint_cases.h"
 #include "integration/servo.h"
@@ -215,8 +215,8 @@ TEST(CompiledEquations, RecordAVariantForADesignThatDecidesOtherwise) {
     twins.formulas.residual(state, &expected, &g);
     EXPECT_LT(largest_difference(G, expected), 1e-13) << radius;
   }
-  EXPECT_NE(system->equation_code(1), nullptr);
-  EXPECT_EQ(system->equation_code(2), nullptr) << "each design needs one of two variants";
+  EXPECT_NE(system->equation_variant(1), nullptr);
+  EXPECT_EQ(system->equation_variant(2), nullptr) << "each design needs one of two variants";
 }
 
 /// A cylindrical loop has two coordinates although its chain has one element; both must have a turn
@@ -295,8 +295,8 @@ TEST(CompiledEquations, RecordAVariantForEachBranch) {
       state.q[3] = std::cos(0.5 * angle), state.q[5] = std::sin(0.5 * angle);
       twins.expect_same(state);
     }
-  EXPECT_NE(system->equation_code(3), nullptr);
-  EXPECT_EQ(system->equation_code(4), nullptr) << "the second round needs no further variants";
+  EXPECT_NE(system->equation_variant(3), nullptr);
+  EXPECT_EQ(system->equation_variant(4), nullptr) << "the second round needs no further variants";
 }
 
 TEST(CompiledEquations, RecordAVariantWhereAStateIsNotANumber) {

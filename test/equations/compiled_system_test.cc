@@ -14,12 +14,12 @@ namespace {
 
 TEST(CompiledSystem, HasOneCodeForAllThreads) {
   const auto system = servo("{}");
-  std::vector<const EquationCode*> found(4);
+  std::vector<const EquationVariant*> found(4);
   std::vector<std::thread> threads;
-  for (const EquationCode*& code : found)
-    threads.emplace_back([&code, &system] { code = system->equation_code(); });
+  for (const EquationVariant*& code : found)
+    threads.emplace_back([&code, &system] { code = system->equation_variant(); });
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(std::set<const EquationCode*>(found.begin(), found.end()).size(), 1U);
+  EXPECT_EQ(std::set<const EquationVariant*>(found.begin(), found.end()).size(), 1U);
   EXPECT_NE(found[0], nullptr);
 }
 

@@ -5,7 +5,7 @@
 
 #include "codegen/value_code.h"
 #include "equations/compiled_equations.h"
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "equations/formulas.h"
 #include "math/differences.h"
 #include "reading/study/study_reader.h"

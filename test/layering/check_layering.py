@@ -194,6 +194,43 @@ def function_lengths(text):
     return lengths
 
 
+SCOPE = re.compile(r"\bnamespace\b(?P<namespace>[^;{}()=]*)$|\b(?:class|struct|enum(?:\s+class)?|union)\s+(?:\[\[\w+\]\]\s*)?(?P<type>\w+)\s*(?:final\b\s*)?(?::[^:].*)?$", re.DOTALL)
+
+
+def types_in(text):
+    """(namespaces, name, line) of each type that a source defines in a namespace; "" is an anonymous one."""
+    code = blank_comments_and_strings(text)
+    code = "\n".join("" if line.lstrip().startswith("#") else line for line in code.split("\n"))
+    types, scopes, head_start = [], [], 0
+    for position, character in enumerate(code):
+        if character == "{":
+            match = SCOPE.search(re.sub(r"template\s*<[^{}]*?>\s*(?=class|struct)", "", code[head_start:position]).rstrip())
+            if match and match["type"] and None not in scopes:
+                types.append((tuple(scopes), match["type"], code.count("\n", 0, position) + 1))
+            scopes.append(match["namespace"].strip() if match and match["namespace"] is not None else None)
+            head_start = position + 1
+        elif character == "}":
+            if scopes:
+                scopes.pop()
+            head_start = position + 1
+        elif character == ";":
+            head_start = position + 1
+    return types
+
+
+def equal_names(sources):
+    """Two types of one name in one namespace. If no unit includes both, no compiler reports them, and the program has one of the two everywhere. An
+    anonymous namespace counts as the one around it, where it is not that of another file."""
+    found, violations = {}, []
+    for path, text in sources.items():
+        for namespaces, name, line in types_in(text):
+            others = found.setdefault((tuple(filter(None, namespaces)), name), [])
+            violations += [f"{path}:{line}: {name} is also defined in {other}:{there}"
+                           for other, there, is_anonymous in others if not (is_anonymous and "" in namespaces and other != path)]
+            others.append((path, line, "" in namespaces))
+    return violations
+
+
 def depths_of(sources):
     """The length of the longest chain of quoted includes below each header; infinite for a circle."""
     headers = {"/".join(path.parts[1:]): text for path, text in sources.items() if path.suffix == ".h"}
@@ -243,6 +280,7 @@ def check(root):
         for first, length in function_lengths(text):
             if length > MAX_FUNCTION:
                 violations.append(f"{name}:{first}: a function of {length} lines, at most {MAX_FUNCTION}")
+    violations += equal_names(sources)
     for name, depth in depths_of(sources).items():
         if depth > MAX_DEPTH:
             violations.append(f"{name}:1: " + ("an include chain leads back to itself" if depth == math.inf else f"includes {depth} headers deep, at most {MAX_DEPTH}"))

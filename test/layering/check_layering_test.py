@@ -70,6 +70,18 @@ class PlantedViolations(unittest.TestCase):
         self.plant("include/mechanism_codesign/misc.h", "\n")
         self.assert_only("include/mechanism_codesign/misc.h:1", "no place")
 
+    def test_two_types_of_one_name_in_one_namespace(self):
+        self.plant("src/text/b.h", "namespace codesign {\nstruct Bytes {\n  int count;\n};\n}\n")
+        self.plant("src/math/b.cc", "namespace codesign {\nnamespace {\ntemplate <class T>\nclass Bytes final : public A<T> {\n};\n}\n}\n")
+        self.assert_only("src/text/b.h:2", "Bytes is also defined in src/math/b.cc:4")
+
+    def test_equal_names_in_other_scopes_are_two(self):
+        self.plant("src/text/b.h", "namespace codesign {\nstruct Holder { struct Bytes {}; };\nnamespace other { enum class Bytes { kOne }; }\n}\n")
+        for name in ("c", "d"):
+            self.plant(f"src/math/{name}.cc", "namespace codesign {\nnamespace {\nstruct Words {\n};\n}\n}\n")
+        self.plant("src/math/b.cc", "namespace codesign {\nstruct Bytes {\n};\nvoid f() { struct Bytes {}; }\n// struct Bytes {\nstruct Bytes copy() { return {}; }\n}\n")
+        self.assertEqual(self.violations(), [])
+
     def test_neighbours_in_one_row(self):
         self.plant("src/ros/b.cc", '#include "cli/console.h"\n')
         self.assert_only("src/ros/b.cc:1", "ros/ includes cli/")

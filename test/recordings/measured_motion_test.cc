@@ -43,8 +43,9 @@ TEST(Resample, CubicsAreExactForParabolasAndLinesForLines) {
   const UniformTimes uniform = uniform_times(times);
   ASSERT_FALSE(uniform.exact);
   const Eigen::VectorXd cubic =
-      resample(times, values_at(times, parabola), uniform, Between::kCubic);
-  const Eigen::VectorXd linear = resample(times, values_at(times, line), uniform, Between::kLinear);
+      resample(times, values_at(times, parabola), uniform, Resampling::kCubic);
+  const Eigen::VectorXd linear =
+      resample(times, values_at(times, line), uniform, Resampling::kLinear);
   for (Eigen::Index k = 0; k < uniform.count; ++k) {
     EXPECT_NEAR(cubic[k], parabola(uniform.at(k)), 1e-12);
     EXPECT_NEAR(linear[k], line(uniform.at(k)), 1e-12);
@@ -55,8 +56,8 @@ TEST(Resample, LinesDoNotOvershootAtAJump) {
   const std::vector<double> times = {0.0, 1.0, 2.1, 3.0, 3.9, 5.0};
   const std::vector<double> jump = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
   const UniformTimes uniform = uniform_times(times);
-  const Eigen::VectorXd linear = resample(times, jump, uniform, Between::kLinear),
-                        cubic = resample(times, jump, uniform, Between::kCubic);
+  const Eigen::VectorXd linear = resample(times, jump, uniform, Resampling::kLinear),
+                        cubic = resample(times, jump, uniform, Resampling::kCubic);
   EXPECT_GE(linear.minCoeff(), 0.0);
   EXPECT_LE(linear.maxCoeff(), 1.0);
   EXPECT_GT(cubic.maxCoeff() - cubic.minCoeff(), 1.0);

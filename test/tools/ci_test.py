@@ -109,7 +109,7 @@ class ToolsCiTest(unittest.TestCase):
         self.assertEqual(tools_ci(600, {"demo": 1}, ["sanitized"]), (1, SANITIZED[:3]))
 
     def test_the_thread_sanitizer_runs_where_what_threads_run_was_changed(self):
-        for name in ("src/engine/dispatcher.cc", "test/equations/equation_code_test.cc", "src/ros/common/worker.h", "test/sensitivity/threads_test.cc"):
+        for name in ("src/engine/dispatcher.cc", "test/equations/equation_variant_test.cc", "src/ros/common/worker.h", "test/sensitivity/threads_test.cc"):
             self.assertIn("sanitize called: thread", tools_ci(600, {}, ["plain"], f"echo README.md; echo {name}")[1])
         self.assertIn("sanitize called: thread", tools_ci(600, {}, ["plain"], "exit 1")[1])
         lines = tools_ci(600, {}, ["plain"], "echo src/reading/xml/place.cc")[1]

@@ -307,14 +307,15 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
     const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
-    const bool has_best_starts = ((spreads - fit.spreads).array().abs() <=
-                                  spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
-                                     .all();
+    const bool are_spreads_settled =
+        ((spreads - fit.spreads).array().abs() <=
+         spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
+            .all();
     const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
     fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value +
                surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;
-    if (has_best_starts || has_one_scale) break;
+    if (are_spreads_settled || has_one_scale) break;
   }
   return fit;
 }

@@ -17,14 +17,14 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// The design to write. `values` are the values of the parameters in `table`.
-struct Design {
+struct WrittenDesign {
   const XmlDocument& document;
   ParameterTable table;
   std::vector<double> values;
 };
 
 std::vector<double> twin_values(const XmlElement& element, const std::string& name,
-                                const Design& design) {
+                                const WrittenDesign& design) {
   const std::string twin = kPrefix + name;
   std::vector<double> values;
   for (const Quantity& quantity : parse_quantities(element, twin, words_of(name), design.table)) {
@@ -35,7 +35,7 @@ std::vector<double> twin_values(const XmlElement& element, const std::string& na
   return values;
 }
 
-void write_twins(XMLElement* node, const std::string& path, const Design& design) {
+void write_twins(XMLElement* node, const std::string& path, const WrittenDesign& design) {
   const ElementRule* rule = find_rule(path);
   const XmlElement element(node, &design.document);
   if (rule != nullptr) {

@@ -89,7 +89,7 @@ enum : std::uint8_t {
 };
 
 /// The value of a field.
-std::optional<std::string_view> find_field(ByteReader fields, std::string_view name) {
+std::optional<std::string_view> find_field(BagCursor fields, std::string_view name) {
   while (!fields.at_end()) {
     const std::string_view field = fields.block("a header's field");
     const std::size_t equals = field.find('=');
@@ -99,24 +99,24 @@ std::optional<std::string_view> find_field(ByteReader fields, std::string_view n
   return std::nullopt;
 }
 
-std::string_view field_of(const ByteReader& fields, std::string_view name) {
+std::string_view field_of(const BagCursor& fields, std::string_view name) {
   if (const std::optional<std::string_view> value = find_field(fields, name)) return *value;
   fields.fail("a record without its field \"" + std::string(name) + "\"");
 }
 
 template <class T>
-T number_of(const ByteReader& fields, std::string_view name) {
+T number_of(const BagCursor& fields, std::string_view name) {
   const std::string_view value = field_of(fields, name);
   if (value.size() != sizeof(T))
     fields.fail("a field \"" + std::string(name) + "\" of " + std::to_string(value.size()) +
                 " bytes");
-  return ByteReader(value).number<T>("");
+  return BagCursor(value).number<T>("");
 }
 
 /// The time of a message, the field `time`.
-std::int64_t time_of(const ByteReader& fields) {
+std::int64_t time_of(const BagCursor& fields) {
   const std::string_view value = field_of(fields, "time");
-  return ByteReader(value, fields.place()).time("a time of reception");
+  return BagCursor(value, fields.place()).time("a time of reception");
 }
 
 /// Decompresses a chunk of a bag. The result grows with what is decompressed, so that a wrong
@@ -169,7 +169,7 @@ void BagContents::check_first_line() {
   if (line != kFirstLine) throw BagFault("its format is not 2.0; `rosbag fix` converts older bags");
 }
 
-void BagContents::read_file_header(const ByteReader& fields) {
+void BagContents::read_file_header(const BagCursor& fields) {
   if (const auto encryptor = find_field(fields, "encryptor"); encryptor && !encryptor->empty())
     throw BagFault("it is encrypted; `rosbag decrypt` writes it so that it can be read");
   const auto index = number_of<std::uint64_t>(fields, "index_pos");
@@ -183,14 +183,14 @@ void BagContents::read_file_header(const ByteReader& fields) {
 
 /// Reads a record outside of chunks. @return the place of the next one.
 std::uint64_t BagContents::read_record(std::uint64_t at) {
-  const std::uint32_t length = ByteReader(read(at, 4)).number<std::uint32_t>("");
+  const std::uint32_t length = BagCursor(read(at, 4)).number<std::uint32_t>("");
   if (length > kMostHeader)
     throw BagFault("a record's header of " + std::to_string(length) + " bytes at byte " +
                    std::to_string(at));
   const std::string header = read(at + 4, length);
-  const ByteReader fields(header, at + 4);
+  const BagCursor fields(header, at + 4);
   const std::uint64_t data_at = at + 4 + length + 4;
-  const std::uint32_t size = ByteReader(read(data_at - 4, 4)).number<std::uint32_t>("");
+  const std::uint32_t size = BagCursor(read(data_at - 4, 4)).number<std::uint32_t>("");
   if (size > size_ - data_at)
     throw BagFault("a record's data of " + std::to_string(size) + " bytes at byte " +
                    std::to_string(data_at) + " of a file of " + std::to_string(size_) + " bytes");
@@ -223,7 +223,7 @@ std::uint64_t BagContents::read_record(std::uint64_t at) {
 }
 
 /// The index of the messages of one connection in the chunk before.
-void BagContents::read_index(ByteReader fields, std::uint64_t at, const std::string& data) {
+void BagContents::read_index(BagCursor fields, std::uint64_t at, const std::string& data) {
   constexpr std::uint64_t kEntry = 12;
   const std::uint64_t count = number_of<std::uint32_t>(fields, "count");
   if (number_of<std::uint32_t>(fields, "ver") != 1) fields.fail("an index of an unknown version");
@@ -235,14 +235,14 @@ void BagContents::read_index(ByteReader fields, std::uint64_t at, const std::str
   const auto connection = number_of<std::uint32_t>(fields, "conn");
   chunks_.back().counts[connection] += count;
   counts_[connection] += count;
-  for (ByteReader entries(data, at); !entries.at_end();) {
+  for (BagCursor entries(data, at); !entries.at_end();) {
     begin_ = std::min(begin_, entries.time("an index's time"));
     entries.bytes(4, "an index's offset");
   }
 }
 
-void BagContents::read_connection(ByteReader fields, std::uint64_t at, const std::string& data) {
-  const ByteReader more(data, at);
+void BagContents::read_connection(BagCursor fields, std::uint64_t at, const std::string& data) {
+  const BagCursor more(data, at);
   const BagConnection connection{std::string(field_of(fields, "topic")),
                                  std::string(field_of(more, "type")),
                                  std::string(field_of(more, "md5sum"))};
@@ -295,9 +295,9 @@ void BagContents::visit_chunk(const Chunk& chunk, const std::string& topic,
   const std::string within =
       is_packed ? " of the chunk at byte " + std::to_string(chunk.at) + ", decompressed" : "";
   Counts found;
-  for (ByteReader records(bytes, is_packed ? 0 : chunk.at, within); !records.at_end();) {
-    const ByteReader fields = records.inner("a record's header");
-    const ByteReader data = records.inner("a record's data");
+  for (BagCursor records(bytes, is_packed ? 0 : chunk.at, within); !records.at_end();) {
+    const BagCursor fields = records.inner("a record's header");
+    const BagCursor data = records.inner("a record's data");
     const auto kind = number_of<std::uint8_t>(fields, "op");
     if (kind == kConnection) continue;
     if (kind != kMessage) fields.fail("a record of kind " + std::to_string(kind) + " in a chunk");

@@ -26,12 +26,12 @@ class BagFault : public std::runtime_error {
 /// Reads numbers and blocks one after the other, in the byte order of ROS, which is that of the
 /// processor. No length is believed: each is compared with the bytes that are left before anything
 /// is read or allocated.
-class ByteReader {
+class BagCursor {
  public:
   /// @param first place of the first byte in the file, for messages. @param within what the place
   /// counts in if not in the file, such as " of the chunk at byte 4117, decompressed"; must outlive
   /// the reader.
-  explicit ByteReader(std::string_view bytes, std::uint64_t first = 0, std::string_view within = {})
+  explicit BagCursor(std::string_view bytes, std::uint64_t first = 0, std::string_view within = {})
       : bytes_(bytes), first_(first), within_(within) {}
 
   bool at_end() const { return read_ == bytes_.size(); }
@@ -58,9 +58,9 @@ class ByteReader {
   std::string_view block(const char* what) { return bytes(number<std::uint32_t>(what), what); }
 
   /// A reader of a block.
-  ByteReader inner(const char* what) {
+  BagCursor inner(const char* what) {
     const std::string_view block = this->block(what);
-    return ByteReader(block, place() - block.size(), within_);
+    return BagCursor(block, place() - block.size(), within_);
   }
 
   /// A number of entries of four bytes and the entries.
@@ -120,7 +120,7 @@ struct BagConnection {
 struct BagMessage {
   const BagConnection& connection;
   std::int64_t received;  ///< [ns]
-  ByteReader content;
+  BagCursor content;
 };
 
 /// The messages of a bag of format 2.0, read for files of any content: rosbag_storage believes the
@@ -155,9 +155,9 @@ class BagContents {
   std::string read(std::uint64_t at, std::uint64_t count);
   std::uint64_t read_record(std::uint64_t at);
   void check_first_line();
-  void read_file_header(const ByteReader& fields);
-  void read_index(ByteReader fields, std::uint64_t at, const std::string& data);
-  void read_connection(ByteReader fields, std::uint64_t at, const std::string& data);
+  void read_file_header(const BagCursor& fields);
+  void read_index(BagCursor fields, std::uint64_t at, const std::string& data);
+  void read_connection(BagCursor fields, std::uint64_t at, const std::string& data);
   void check_counts() const;
   std::string unpack(const Chunk& chunk);
   void visit_chunk(const Chunk& chunk, const std::string& topic,

@@ -27,7 +27,7 @@ struct JointStates {
 };
 
 JointStates joint_states_of(const BagMessage& message) {
-  ByteReader content = message.content;
+  BagCursor content = message.content;
   content.number<std::uint32_t>("a header's sequence number");
   JointStates states;
   states.received = message.received;

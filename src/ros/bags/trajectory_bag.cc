@@ -37,7 +37,7 @@ struct Trajectory {
   std::vector<Point> points;
 };
 
-Trajectory trajectory_of(ByteReader content) {
+Trajectory trajectory_of(BagCursor content) {
   Trajectory message;
   content.number<std::uint32_t>("a header's sequence number");
   content.time("a stamp");

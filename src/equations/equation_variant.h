@@ -20,7 +20,7 @@
 
 namespace codesign {
 
-struct RecordedEquations;
+struct EquationRecorder;
 struct ResidualRecording;
 class TransposedCode;
 
@@ -84,13 +84,13 @@ struct NumberedRecording {
 /// the scalar Traced, and derives the linearization from the recorded residual and the gradients of
 /// signals from their recorded values; the tangents of the recording, and the code for each scalar,
 /// are made when they are first needed. Thread-safe.
-class EquationCode {
+class EquationVariant {
  public:
   /// The scalar that a function is wanted for.
   struct Scalar {
-    int lanes;   ///< 0 for double and for complex numbers, which are always interpreted
-    bool split;  ///< only derivatives are computed, from values and directions of the state in
-                 ///< separate arrays
+    int lanes;      ///< 0 for double and for complex numbers, which are always interpreted
+    bool separate;  ///< only derivatives are computed, from values and directions of the state in
+                    ///< separate arrays
     bool interpreted;   ///< without machine code
     bool held = false;  ///< without the guards of switches, whose outcomes the caller holds
   };
@@ -100,13 +100,13 @@ class EquationCode {
   /// which counts before `outcomes`. @param begun the residual with these
   /// outcomes, if it was recorded already; for the parts that begin with it.
   /// @throws std::logic_error if the formulas decide something without is_less().
-  explicit EquationCode(const CompiledSystem& system, EquationPart part,
-                        std::vector<bool> outcomes = {}, std::vector<bool> mode = {},
-                        std::unique_ptr<ResidualRecording> begun = nullptr);
-  ~EquationCode();
+  explicit EquationVariant(const CompiledSystem& system, EquationPart part,
+                           std::vector<bool> outcomes = {}, std::vector<bool> mode = {},
+                           std::unique_ptr<ResidualRecording> begun = nullptr);
+  ~EquationVariant();
 
   /// One function, made by the first call. It is interpreted also where machine code cannot be
-  /// made: on other processors than x86-64 and for very long programs. For a split scalar the
+  /// made: on other processors than x86-64 and for very long programs. With separate directions the
   /// arrays kQ to kZ hold the state's values while CompiledFunction::values runs, and the
   /// directions while `tangents` runs.
   const CompiledFunction& function(EquationFunction function, const Scalar& scalar) const;
@@ -149,8 +149,8 @@ class EquationCode {
     return functions_[to_index(function)];
   }
   void record_motion(EquationPart part, ResidualRecording* begun);
-  void record_signals(RecordedEquations* equations);
-  void record_start(RecordedEquations* equations);
+  void record_signals(EquationRecorder* equations);
+  void record_start(EquationRecorder* equations);
   /// Records one function whose results `compute` returns.
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
@@ -161,7 +161,7 @@ class EquationCode {
   void take_guards(std::size_t first, std::size_t last, std::vector<Recording::Guard>* guards);
   /// The same with the decisions before index `last`, which a design makes.
   void take_design_guards(std::size_t last);
-  void record_accelerations(const std::vector<Traced>& G_z, RecordedEquations* equations);
+  void record_accelerations(const std::vector<Traced>& G_z, EquationRecorder* equations);
   void take_outputs(EquationFunction function, const std::vector<VectorX<Traced>>& results);
   /// Makes derivatives_ from values_.
   void differentiate() const;
@@ -191,8 +191,8 @@ class EquationCode {
     std::unique_ptr<CompiledFunction> code;
   };
   mutable std::mutex mutex_;
-  /// Per function: double, Lanes<4>, Lanes<8>, the two split ones; then the same without machine
-  /// code; then all of them without the guards of switches.
+  /// Per function: double, Lanes<4>, Lanes<8>, the two with separate directions; then the same
+  /// without machine code; then all of them without the guards of switches.
   mutable std::vector<std::array<Known, 20>> known_;
 };
 

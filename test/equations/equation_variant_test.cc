@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 
 #include <gtest/gtest.h>
 
@@ -16,16 +16,16 @@ namespace {
 #define SKIP_WITHOUT_CODE() \
   if (!ValueCode::is_available()) GTEST_SKIP() << "no machine code on this processor"
 
-TEST(EquationCode, IsRecordedOnceForASystem) {
+TEST(EquationVariant, IsRecordedOnceForASystem) {
   SKIP_WITHOUT_CODE();
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
-  const EquationCode* codes[4] = {};
+  const EquationVariant* codes[4] = {};
   std::vector<std::thread> threads;
-  for (const EquationCode*& code : codes)
-    threads.emplace_back([&code, &system] { code = system->equation_code(); });
+  for (const EquationVariant*& code : codes)
+    threads.emplace_back([&code, &system] { code = system->equation_variant(); });
   for (std::thread& thread : threads) thread.join();
   ASSERT_NE(codes[0], nullptr);
-  for (const EquationCode* code : codes) EXPECT_EQ(code, codes[0]);
+  for (const EquationVariant* code : codes) EXPECT_EQ(code, codes[0]);
   const CompiledFunction* functions[4] = {};
   threads.clear();
   for (const CompiledFunction*& function : functions)
@@ -41,10 +41,10 @@ TEST(EquationCode, IsRecordedOnceForASystem) {
   EXPECT_NE(&codes[0]->function(EquationFunction::kResidual, {8, false, false}), residual);
 }
 
-TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
+TEST(EquationVariant, OnlyWhatDependsOnTheDesignComesWithIt) {
   SKIP_WITHOUT_CODE();
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
-  const EquationCode& code = *system->equation_code();
+  const EquationVariant& code = *system->equation_variant();
   std::size_t expressions = 0;
   for (int n : code.numbered(true).numbers) {
     const Recording::Node& node = code.numbered(true).recording.node(n);
@@ -56,27 +56,27 @@ TEST(EquationCode, OnlyWhatDependsOnTheDesignComesWithIt) {
   EXPECT_EQ(expressions, 5U) << "Kp, Ki, Kd, the weight, and the start as a terminal reference";
 }
 
-TEST(EquationCode, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
+TEST(EquationVariant, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   SKIP_WITHOUT_CODE();
   const std::shared_ptr<const CompiledSystem> still =
       compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
-  EXPECT_TRUE(still->equation_code()->numbered(false).turns.empty()) << "no position is read";
-  EXPECT_TRUE(still->equation_code()->numbered(false).functions.empty())
+  EXPECT_TRUE(still->equation_variant()->numbered(false).turns.empty()) << "no position is read";
+  EXPECT_TRUE(still->equation_variant()->numbered(false).functions.empty())
       << "constants are no functions of time";
-  EXPECT_EQ(servo("{}")->equation_code()->numbered(false).turns.size(), 1U)
+  EXPECT_EQ(servo("{}")->equation_variant()->numbered(false).turns.size(), 1U)
       << "the shoulder's position";
   const std::shared_ptr<const CompiledSystem> moved =
       compile(double_pendulum(),
               "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: "
               "sine, amplitude: 1.0, "
               "period: 2.0}}]}\n");
-  ASSERT_EQ(moved->equation_code()->numbered(false).functions.size(), 1U);
-  const auto& orders = moved->equation_code()->numbered(false).functions[0];
+  ASSERT_EQ(moved->equation_variant()->numbered(false).functions.size(), 1U);
+  const auto& orders = moved->equation_variant()->numbered(false).functions[0];
   EXPECT_GE(orders[0], 0);
   EXPECT_GE(orders[1], 0) << "G_t has the reference's rate";
 }
 
-TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
+TEST(EquationVariant, DecisionsByTheDesignAloneAreApart) {
   SKIP_WITHOUT_CODE();
   const std::string friction =
       "<codesign:friction mu_static='0.6' mu_dynamic='0.4' transition_velocity='0.1' "
@@ -86,25 +86,26 @@ TEST(EquationCode, DecisionsByTheDesignAloneAreApart) {
       compile(robot("<codesign:parameter name='radius' value='0.05'/>" + bar("arm") +
                     hinge("shoulder", "ground", "arm", "0 0 0", friction)),
               motion_study(1.0, "{}", "shoulder/velocity", "{}"));
-  EXPECT_EQ(system->equation_code()->design_guards().size(), 1U) << "whether the pin has a radius";
+  EXPECT_EQ(system->equation_variant()->design_guards().size(), 1U)
+      << "whether the pin has a radius";
 }
 
-TEST(EquationCode, EveryShippedCaseIsCompiled) {
+TEST(EquationVariant, EveryShippedCaseIsCompiled) {
   SKIP_WITHOUT_CODE();
   for (const char* name :
        {"slider_crank", "slider_crank_haug", "inverted_pendulum", "inverted_pendulum_frictionless",
         "governor", "two_link_arm", "arm_limits", "gantry"}) {
     const Shipped shipped(name);
     const std::shared_ptr<const CompiledSystem> system = make_system(shipped.robot, shipped.study);
-    const EquationCode* const code = system->equation_code();
+    const EquationVariant* const code = system->equation_variant();
     ASSERT_NE(code, nullptr) << name;
     for (EquationFunction function : {EquationFunction::kResidual, EquationFunction::kLinearization,
                                       EquationFunction::kConstraintErrors})
-      for (const EquationCode::Scalar& scalar : {EquationCode::Scalar{0, false, false},
-                                                 {4, false, false},
-                                                 {8, false, false},
-                                                 {4, true, false},
-                                                 {8, true, false}})
+      for (const EquationVariant::Scalar& scalar : {EquationVariant::Scalar{0, false, false},
+                                                    {4, false, false},
+                                                    {8, false, false},
+                                                    {4, true, false},
+                                                    {8, true, false}})
         EXPECT_EQ(code->function(function, scalar).interpreter, nullptr)
             << name << ", lanes " << scalar.lanes;
   }

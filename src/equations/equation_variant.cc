@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include "codegen/traced.h"
 #include "elements/energy.h"
-#include "equations/recorded_equations.h"
+#include "equations/equation_recorder.h"
 #include "equations/transposed_code.h"
 #include "math/arrays.h"
 
@@ -21,7 +21,7 @@ using Arrays = EquationArrays;
 constexpr int kMostColumns = 4000;
 constexpr std::size_t kMostBytes = std::size_t{16} << 20U;
 
-constexpr int kTurns = RecordedEquations::kTurns;
+constexpr int kTurns = EquationRecorder::kTurns;
 
 /// The place of an entry in an array of Lanes, as an index of doubles: each entry takes lanes + 1
 /// of them. The code's own workspaces are counted in doubles already.
@@ -51,16 +51,16 @@ bool is_tangent_leaf(const Recording::Node& node) {
 
 }  // namespace
 
-EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
-                           std::vector<bool> outcomes, std::vector<bool> mode,
-                           std::unique_ptr<ResidualRecording> begun)
+EquationVariant::EquationVariant(const CompiledSystem& system, EquationPart part,
+                                 std::vector<bool> outcomes, std::vector<bool> mode,
+                                 std::unique_ptr<ResidualRecording> begun)
     : system_(system),
       long_(system.layout().columns() > kMostColumns),
       functions_(count_functions(system, part)),
       known_(functions_.size()) {
   if (part == EquationPart::kSignals || part == EquationPart::kStart) {
     values_.recording.follow(std::move(outcomes));
-    RecordedEquations equations(system, &values_.recording);
+    EquationRecorder equations(system, &values_.recording);
     take_design_guards(values_.recording.decisions().size());
     part == EquationPart::kSignals ? record_signals(&equations) : record_start(&equations);
   } else {
@@ -81,15 +81,15 @@ EquationCode::EquationCode(const CompiledSystem& system, EquationPart part,
 }
 
 template <class Compute>
-void EquationCode::record(EquationFunction function, const Compute& compute) {
+void EquationVariant::record(EquationFunction function, const Compute& compute) {
   const std::size_t decisions = recording_->decisions().size();
   const std::vector<VectorX<Traced>> results = compute();
   take_guards(decisions, recording_->decisions().size(), &at(function).guards);
   take_outputs(function, results);
 }
 
-void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
-  RecordedEquations* const equations = &begun->equations;
+void EquationVariant::record_motion(EquationPart part, ResidualRecording* begun) {
+  EquationRecorder* const equations = &begun->equations;
   for (EquationFunction function :
        {EquationFunction::kResidual, EquationFunction::kLinearization,
         EquationFunction::kConstraintErrors, EquationFunction::kSwitches})
@@ -134,7 +134,7 @@ void EquationCode::record_motion(EquationPart part, ResidualRecording* begun) {
     record_accelerations(d.rate, equations);
 }
 
-void EquationCode::record_switches(const Traced& g) {
+void EquationVariant::record_switches(const Traced& g) {
   std::vector<Traced> differences, right;
   const std::vector<Recording::Guard> guards = recording_->guards();
   for (const Recording::Guard& guard : guards)
@@ -154,8 +154,8 @@ void EquationCode::record_switches(const Traced& g) {
 }
 
 // G at z = 0 is short: it holds no accelerations.
-void EquationCode::record_accelerations(const std::vector<Traced>& G_z,
-                                        RecordedEquations* equations) {
+void EquationVariant::record_accelerations(const std::vector<Traced>& G_z,
+                                           EquationRecorder* equations) {
   const Sparsity& pattern = system_.patterns().rate;
   constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take
                                       // longer to make than most runs
@@ -172,7 +172,7 @@ void EquationCode::record_accelerations(const std::vector<Traced>& G_z,
   mass_factor_ = std::move(solution.factor);
 }
 
-void EquationCode::record_signals(RecordedEquations* equations) {
+void EquationVariant::record_signals(EquationRecorder* equations) {
   std::vector<EquationFunction> functions{EquationFunction::kTerminal};
   for (std::size_t k = 0; k < system_.watched().size(); ++k)
     functions.push_back(watched_function(k));
@@ -206,7 +206,7 @@ void EquationCode::record_signals(RecordedEquations* equations) {
   residuals(EquationFunction::kTerminalResiduals, ObjectivePart::kTerminal);
 }
 
-void EquationCode::record_start(RecordedEquations* equations) {
+void EquationVariant::record_start(EquationRecorder* equations) {
   Formulas<Traced>& formulas = equations->formulas;
   const State<Traced>& state = equations->state;
   record(EquationFunction::kPlacement, [&] { return equations->record_placement(); });
@@ -245,8 +245,8 @@ void EquationCode::record_start(RecordedEquations* equations) {
   }
 }
 
-void EquationCode::take_outputs(EquationFunction function,
-                                const std::vector<VectorX<Traced>>& results) {
+void EquationVariant::take_outputs(EquationFunction function,
+                                   const std::vector<VectorX<Traced>>& results) {
   for (std::size_t k = 0; k < results.size(); ++k)
     for (Eigen::Index i = 0; i < results[k].size(); ++i)
       at(function).outputs.push_back(
@@ -254,13 +254,13 @@ void EquationCode::take_outputs(EquationFunction function,
            {Arrays::kResults + static_cast<int>(k), static_cast<int>(i)}});
 }
 
-void EquationCode::take_design_guards(std::size_t last) {
+void EquationVariant::take_design_guards(std::size_t last) {
   std::vector<Recording::Guard> none;
   take_guards(0, last, &none);
 }
 
-void EquationCode::take_guards(std::size_t first, std::size_t last,
-                               std::vector<Recording::Guard>* guards) {
+void EquationVariant::take_guards(std::size_t first, std::size_t last,
+                                  std::vector<Recording::Guard>* guards) {
   const auto all = recording_->decisions().begin();
   std::vector<int> decisions(all + to_signed(first), all + to_signed(last));
   std::sort(decisions.begin(), decisions.end());
@@ -272,7 +272,7 @@ void EquationCode::take_guards(std::size_t first, std::size_t last,
   }
 }
 
-void EquationCode::differentiate() const {
+void EquationVariant::differentiate() const {
   Recording& recording = derivatives_.recording;
   recording = values_.recording;
   derivatives_.tangents.resize(functions_.size());
@@ -287,26 +287,26 @@ void EquationCode::differentiate() const {
   derivatives_.number_nodes();
 }
 
-const NumberedRecording& EquationCode::numbered(bool with_derivatives) const {
+const NumberedRecording& EquationVariant::numbered(bool with_derivatives) const {
   if (!with_derivatives) return values_;
   std::call_once(differentiated_, [this] { differentiate(); });
   return derivatives_;
 }
 
-EquationCode::~EquationCode() = default;
+EquationVariant::~EquationVariant() = default;
 
-const TransposedCode& EquationCode::transposed() const {
+const TransposedCode& EquationVariant::transposed() const {
   std::call_once(transposed_once_, [this] {
     transposed_ = std::make_unique<TransposedCode>(system_, values_.recording, functions_, long_);
   });
   return *transposed_;
 }
 
-const CompiledFunction& EquationCode::function(EquationFunction function,
-                                               const Scalar& scalar) const {
+const CompiledFunction& EquationVariant::function(EquationFunction function,
+                                                  const Scalar& scalar) const {
   const auto f = to_index(function);
   const bool held = scalar.held && !mode_.empty();
-  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.split ? 2 : 0) +
+  Known& known = known_[f][to_index(scalar.lanes / 4 + (scalar.separate ? 2 : 0) +
                                     (scalar.interpreted ? 5 : 0) + (held ? 10 : 0))];
   if (!known.made.load(std::memory_order_acquire)) {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -316,19 +316,19 @@ const CompiledFunction& EquationCode::function(EquationFunction function,
   return *known.code;
 }
 
-// Tangents are sums of products, factor times derivative. With a split scalar the state's arrays
-// hold directions while the tangents run, so factors that are entries of the state are copied to
-// slots before.
-ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
-                                   std::vector<Place>* value_places) const {
+// Tangents are sums of products, factor times derivative. Of a scalar with separate directions the
+// state's arrays hold directions while the tangents run, so factors that are entries of the state
+// are copied to slots before.
+ValueTask EquationVariant::value_task(std::size_t function, const Scalar& scalar,
+                                      std::vector<Place>* value_places) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   ValueTask task;
   task.homes.reserve(from.homes.size());
-  const int state_lanes = scalar.split ? 0 : scalar.lanes;
+  const int state_lanes = scalar.separate ? 0 : scalar.lanes;
   for (const Place& home : from.homes)
     task.homes.push_back(spread(home, home.array == Arrays::kNumbers ? scalar.lanes : state_lanes));
   task.guards = checked(functions_[function].guards, scalar.held);
-  if (!scalar.split)
+  if (!scalar.separate)
     for (const ValueTask::Output& output : functions_[function].outputs)
       task.outputs.push_back({output.node, spread(output.place, scalar.lanes)});
   if (scalar.lanes == 0) return task;
@@ -337,7 +337,7 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
     Place& place = (*value_places)[to_index(n)];
     if (place.array < 0) {
       task.kept.push_back(n);
-    } else if (scalar.split && place.array != Arrays::kNumbers) {
+    } else if (scalar.separate && place.array != Arrays::kNumbers) {
       place = {Arrays::kSlots, task.reserved_slots++};
       task.outputs.push_back({n, place});
     }
@@ -345,8 +345,8 @@ ValueTask EquationCode::value_task(std::size_t function, const Scalar& scalar,
   return task;
 }
 
-std::vector<Sum> EquationCode::tangent_sums(std::size_t function,
-                                            const std::vector<Place>& value_places) const {
+std::vector<Sum> EquationVariant::tangent_sums(std::size_t function,
+                                               const std::vector<Place>& value_places) const {
   const TangentProgram& tangent = *derivatives_.tangents[function];
   const auto row_place = [&](int n) {
     const bool has_sum = to_index(n) < tangent.row.size() && tangent.row[to_index(n)] >= 0;
@@ -365,8 +365,8 @@ std::vector<Sum> EquationCode::tangent_sums(std::size_t function,
   return sums;
 }
 
-std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function,
-                                                        const Scalar& scalar) const {
+std::unique_ptr<CompiledFunction> EquationVariant::compile(std::size_t function,
+                                                           const Scalar& scalar) const {
   const NumberedRecording& from = numbered(scalar.lanes > 0);
   std::vector<Place> value_places;
   const ValueTask task = value_task(function, scalar, &value_places);
@@ -376,8 +376,8 @@ std::unique_ptr<CompiledFunction> EquationCode::compile(std::size_t function,
   if (scalar.lanes == 0) return compiled;
   for (int n : task.kept) value_places[to_index(n)] = {Arrays::kSlots, program.slot[to_index(n)]};
   StraightLine::RowLayouts layouts;
-  layouts.fill(scalar.split ? StraightLine::RowLayout{scalar.lanes, 0}
-                            : StraightLine::RowLayout{scalar.lanes + 1, 1});
+  layouts.fill(scalar.separate ? StraightLine::RowLayout{scalar.lanes, 0}
+                               : StraightLine::RowLayout{scalar.lanes + 1, 1});
   layouts[to_index(Arrays::kNumbers)] = {scalar.lanes + 1, 1};
   layouts[to_index(Arrays::kRows)] = {scalar.lanes, 0};
   compiled->rows = to_index(from.tangents[function]->rows * scalar.lanes);

@@ -15,11 +15,11 @@ namespace codesign {
 /// The equations of one mechanism, evaluated with the scalar that records. The constructor makes
 /// the leaves: q, v, s and z (arrays EquationArrays::kQ to kZ), turn references (kTurns) and
 /// expressions of the design; functions of time follow where they are used.
-struct RecordedEquations {
+struct EquationRecorder {
   static constexpr int kTurns = Recording::kTimed + 1;
 
   /// @param system and `recording` must outlive this.
-  RecordedEquations(const System& system, Recording* recording);
+  EquationRecorder(const System& system, Recording* recording);
 
   /// Records q and v at tree coordinates, TreeLayout, and their rates, which are the leaves of kQ
   /// and kV here.
@@ -36,13 +36,13 @@ struct RecordedEquations {
   Traced g;           ///< after record_residual()
 };
 
-/// A recording that begins with the residual. @param outcomes, mode as of EquationCode.
+/// A recording that begins with the residual. @param outcomes, mode as of EquationVariant.
 struct ResidualRecording {
   explicit ResidualRecording(const System& system, std::vector<bool> outcomes = {},
                              std::vector<bool> mode = {});
 
   Recording recording;
-  RecordedEquations equations;
+  EquationRecorder equations;
   bool ends_run = false;      ///< whether the condition of Study::until holds
   std::size_t of_design = 0;  ///< decisions that were made before the residual's
 };
@@ -60,7 +60,7 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
 /// @throws std::logic_error for a derivative that is not in the patterns.
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
                                            EliminationOrder order, bool rates_only,
-                                           RecordedEquations* recorded);
+                                           EquationRecorder* recorded);
 
 /// The patterns of the derivatives of G and, in one more row, of the integrand g: entry (row,
 /// column) is there if the recorded row depends on the column's variable in some branch. Columns:

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/recorded_equations.h"
+#include "equations/equation_recorder.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "math/arrays.h"
 #include "system/tree_kinematics.h"
 
@@ -129,7 +129,7 @@ Dependencies::Dependencies(const Recording& recording, const Layout& layout)
 using Turned = std::function<bool(unsigned)>;
 
 /// Adds the columns that each row depends on in one recording of the residual.
-void add_rows(const System& system, const RecordedEquations& equations,
+void add_rows(const System& system, const EquationRecorder& equations,
               std::vector<ColumnSet>* rows) {
   const Dependencies dependencies(*equations.recording, system.layout());
   const auto add = [&](std::size_t row, const Traced& value) {
@@ -149,7 +149,7 @@ void add_all_branches(const System& system, const ResidualRecording& expected,
   const auto find_more = [&](Turned turned) {
     Recording recording;
     recording.turn(std::move(turned));
-    RecordedEquations equations(system, &recording);
+    EquationRecorder equations(system, &recording);
     equations.record_residual();
     add_rows(system, equations, rows);
     for (unsigned place : recording.places())
@@ -175,7 +175,7 @@ Sparsity part_of(const std::vector<ColumnSet>& rows, int first, int count) {
 
 }  // namespace
 
-RecordedEquations::RecordedEquations(const System& system, Recording* to)
+EquationRecorder::EquationRecorder(const System& system, Recording* to)
     : recording(to), formulas(system) {
   // One parameter more than there are: with a model without parameters nothing else would refer to
   // the recording.
@@ -207,14 +207,14 @@ ResidualRecording::ResidualRecording(const System& system, std::vector<bool> out
   recording.record_switches(false);
 }
 
-std::vector<VectorX<Traced>> RecordedEquations::record_stuck_slips() {
+std::vector<VectorX<Traced>> EquationRecorder::record_stuck_slips() {
   std::vector<VectorX<Traced>> slips(2);
   formulas.load(state);
   formulas.stuck_slips(&slips[0], &slips[1]);
   return slips;
 }
 
-std::vector<VectorX<Traced>> RecordedEquations::record_placement() {
+std::vector<VectorX<Traced>> EquationRecorder::record_placement() {
   std::vector<VectorX<Traced>> motion(2);
   const StateView<Traced>& view = formulas.view();
   const TreeLayout tree(view.system.robot());
@@ -238,7 +238,7 @@ std::vector<JacobianEntry> derive_gradients(const System& system, const std::vec
 
 Linearization<Traced> derive_linearization(const ByVariable<Sparsity>& patterns,
                                            EliminationOrder order, bool rates_only,
-                                           RecordedEquations* recorded) {
+                                           EquationRecorder* recorded) {
   Recording* const recording = recorded->recording;
   const Columns columns{patterns.position.columns, patterns.velocity.columns,
                         patterns.rate.columns};

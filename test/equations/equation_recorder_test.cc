@@ -1,10 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "equations/equation_code.h"
+#include "equations/equation_recorder.h"
+#include "equations/equation_variant.h"
 #include "equations/joint_cases.h"
 #include "equations/loaded_arm.h"
-#include "equations/recorded_equations.h"
 #include "integration/servo.h"
 
 namespace codesign {
@@ -27,7 +27,7 @@ TEST(RecordPatterns, HaveARowPerEquationAndOneForTheIntegrand) {
 /// derive_linearization() throws for an entry outside the patterns. Each decision alone is turned
 /// round.
 void expect_room_for_every_variant(const CompiledSystem& system) {
-  const std::vector<bool> outcomes = system.equation_code()->outcomes();
+  const std::vector<bool> outcomes = system.equation_variant()->outcomes();
   for (std::size_t k = 0; k < outcomes.size(); ++k) {
     std::vector<bool> other(outcomes.begin(),
                             outcomes.begin() + static_cast<std::ptrdiff_t>(k) + 1);

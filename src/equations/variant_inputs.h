@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "control/reference.h"
-#include "equations/equation_code.h"
+#include "equations/equation_variant.h"
 #include "equations/transposed_code.h"
 #include "math/scalar.h"
 
@@ -21,12 +21,12 @@ constexpr int kLanesOf<Lanes<N>> = N;
 /// that depend on design, time and turn references (array EquationArrays::kNumbers). T as in
 /// CompiledEquations.
 template <class T>
-class CodeInputs {
+class VariantInputs {
  public:
-  explicit CodeInputs(const EquationCode* of)
+  explicit VariantInputs(const EquationVariant* of)
       : code_(of), numbered_(&of->numbered(kLanesOf<T> > 0)) {}
 
-  const EquationCode& code() const { return *code_; }
+  const EquationVariant& code() const { return *code_; }
   /// Takes the values of all named parameters, unless it has them since the last forget_design().
   void take_design(const std::vector<T>& parameters);
   /// The same with the numbers of the transposed code, which begin with those of the values; for
@@ -52,7 +52,7 @@ class CodeInputs {
   void fill_numbers(const std::vector<T>& parameters);
   void set_functions(const std::vector<T>& parameters);
 
-  const EquationCode* code_;
+  const EquationVariant* code_;
   const NumberedRecording* numbered_;
   bool ready_ = false;  ///< whether the members below belong to the present design
   int failed_ = -1;

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "equations/code_inputs.h"
+#include "equations/variant_inputs.h"
 
 #include <complex>
 #include <iterator>
@@ -11,7 +11,7 @@
 namespace codesign {
 
 template <class T>
-void CodeInputs<T>::take_design(const std::vector<T>& parameters) {
+void VariantInputs<T>::take_design(const std::vector<T>& parameters) {
   if (ready_) return;
   fill_numbers(parameters);
   set_functions(parameters);
@@ -21,7 +21,8 @@ void CodeInputs<T>::take_design(const std::vector<T>& parameters) {
 }
 
 template <class T>
-void CodeInputs<T>::take_products(const CompiledSystem& system, const std::vector<T>& parameters) {
+void VariantInputs<T>::take_products(const CompiledSystem& system,
+                                     const std::vector<T>& parameters) {
   if (!products_) {
     const TransposedCode& transposed = code_->transposed();
     products_ = std::make_unique<DesignProducts>(system, transposed);
@@ -32,7 +33,7 @@ void CodeInputs<T>::take_products(const CompiledSystem& system, const std::vecto
 }
 
 template <class T>
-void CodeInputs<T>::set_functions(const std::vector<T>& parameters) {
+void VariantInputs<T>::set_functions(const std::vector<T>& parameters) {
   const auto& sources = numbered_->recording.timed_sources();
   functions_.resize(sources.size());
   const auto set = [&](auto* function, std::size_t k, const auto& description) {
@@ -50,7 +51,7 @@ void CodeInputs<T>::set_functions(const std::vector<T>& parameters) {
 }
 
 template <class T>
-void CodeInputs<T>::fill_numbers(const std::vector<T>& parameters) {
+void VariantInputs<T>::fill_numbers(const std::vector<T>& parameters) {
   const Recording& recording = numbered_->recording;
   nodes_.assign(to_index(recording.size()), T(0.0));
   numbers_.assign(numbered_->numbers.size(), T(0.0));
@@ -77,7 +78,7 @@ void CodeInputs<T>::fill_numbers(const std::vector<T>& parameters) {
 }
 
 template <class T>
-void CodeInputs<T>::set_instant(double t, const std::vector<double>& turns) {
+void VariantInputs<T>::set_instant(double t, const std::vector<double>& turns) {
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const ReferenceMotion<T> motion =
         std::visit([t](const auto& function) { return function.at(t); }, functions_[k]);
@@ -91,7 +92,7 @@ void CodeInputs<T>::set_instant(double t, const std::vector<double>& turns) {
 }
 
 template <class T>
-void CodeInputs<T>::seed_time(double t) {
+void VariantInputs<T>::seed_time(double t) {
   if constexpr (kLanesOf < T >> 0)
     for (std::size_t k = 0; k < functions_.size(); ++k) {
       const ReferenceMotion<T> motion =
@@ -104,7 +105,7 @@ void CodeInputs<T>::seed_time(double t) {
 }
 
 template <class T>
-void CodeInputs<T>::add_time_direction(double t, const std::vector<double>& direction) {
+void VariantInputs<T>::add_time_direction(double t, const std::vector<double>& direction) {
   if constexpr (kLanesOf < T >> 0)
     for (std::size_t k = 0; k < functions_.size(); ++k) {
       const ReferenceMotion<T> motion =
@@ -118,9 +119,9 @@ void CodeInputs<T>::add_time_direction(double t, const std::vector<double>& dire
     }
 }
 
-template class CodeInputs<double>;
-template class CodeInputs<std::complex<double>>;
-template class CodeInputs<Lanes<4>>;
-template class CodeInputs<Lanes<8>>;
+template class VariantInputs<double>;
+template class VariantInputs<std::complex<double>>;
+template class VariantInputs<Lanes<4>>;
+template class VariantInputs<Lanes<8>>;
 
 }  // namespace codesign
