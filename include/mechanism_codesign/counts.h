@@ -19,25 +19,25 @@ struct Counts {
   int bodies = 0;                 ///< without the ground
   int coordinates = 0;            ///< n = 7 per body
   int first_order_equations = 0;  ///< 2 n
-  int controller_states = 0;      ///< extra states s: integrals of controllers, states of friction
-                                  ///< laws; not in the sums below
-  int degrees_of_freedom = 0;  ///< dimension of the possible motions: n - rank(Phi_q), or less at a
-                               ///< singular position, (23a)
-  int constraints = 0;         ///< m, rows of Phi
+  /// extra states s: integrals of controllers, states of friction laws; not in the sums below
+  int controller_states = 0;
+  /// dimension of the possible motions: n - rank(Phi_q), or less at a singular position, (23a)
+  int degrees_of_freedom = 0;
+  int constraints = 0;            ///< m, rows of Phi
   int redundant_constraints = 0;  ///< m - rank(Phi_q)
   int dynamic_equations = 0;      ///< 2 n + m
   int parameters = 0;             ///< p, tuned parameters
   int sensitivities = 0;          ///< p (2 n + m)
   int total_equations = 0;        ///< dynamic equations + sensitivities
-  bool in_joint_coordinates =
-      false;  ///< whether the equations are solved in joint coordinates, theory (56)
+  /// whether the equations are solved in joint coordinates, theory (56)
+  bool in_joint_coordinates = false;
   int solved_coordinates = 0;                 ///< coordinates of the solver
   int solved_constraints = 0;                 ///< its constraint rows
   std::vector<ConstraintRow> redundant_rows;  ///< rows that follow from the others, theory (23)
-  std::vector<std::string> undetermined_reactions;  ///< joints, loops and couplings whose reactions
-                                                    ///< are not unique, theory (23)
-  std::vector<std::string> chosen_friction;  ///< the entries of `undetermined_reactions` whose
-                                             ///< friction depends on the reaction
+  /// joints, loops and couplings whose reactions are not unique, theory (23)
+  std::vector<std::string> undetermined_reactions;
+  /// the entries of `undetermined_reactions` whose friction depends on the reaction
+  std::vector<std::string> chosen_friction;
 };
 
 }  // namespace codesign

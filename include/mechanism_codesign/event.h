@@ -12,12 +12,14 @@ namespace codesign {
 /// (17d). A step ends there. Switches that change at the same instant are one event, named after
 /// the first of them.
 struct Event {
-  double time = 0.0;       ///< [s]
-  std::string element;     ///< its place in the study, such as `loads[0].effort` or
-                           ///< `objective.integral[1].signal`, or `joint "slide"`
-  std::string object;      ///< joint or link on which the element acts; empty: none
-  std::string expression;  ///< the comparison or function as the user wrote it, or the law's guard
-                           ///< in words: "touch of the upper stop"
+  double time = 0.0;  ///< [s]
+  /// its place in the study, such as `loads[0].effort` or `objective.integral[1].signal`, or `joint
+  /// "slide"`
+  std::string element;
+  std::string object;  ///< joint or link on which the element acts; empty: none
+  /// the comparison or function as the user wrote it, or the law's guard in words: "touch of the
+  /// upper stop"
+  std::string expression;
   /// Whether the comparison becomes true, the argument of `sign`, `abs`, `floor` or `ceil` rises
   /// through the value at which they switch, a later argument of `min` or `max` takes over, or a
   /// stop is touched; else the opposite.

@@ -14,8 +14,9 @@ struct JointSample {
   double position = 0.0;      ///< [rad or m]
   double velocity = 0.0;      ///< [rad/s or m/s]
   double acceleration = 0.0;  ///< [rad/s^2 or m/s^2]
-  double effort = 0.0;  ///< of all controllers, within the actuator's limit (13c), positive along
-                        ///< the coordinate [N m or N]
+  /// of all controllers, within the actuator's limit (13c), positive along the coordinate [N m or
+  /// N]
+  double effort = 0.0;
 };
 
 /// Friction in one joint or loop.
@@ -24,12 +25,12 @@ struct FrictionSample {
   /// positive velocity. For a contact that slips in several directions (table, planar and spherical
   /// joints), minus the magnitude of (13a).
   double friction = 0.0;
-  double normal_force = 0.0;      ///< N of theory (12) [N]
-  double sliding_velocity = 0.0;  ///< of the child relative to the parent along the joint axis, or
-                                  ///< the speed of slip [m/s or rad/s]
+  double normal_force = 0.0;  ///< N of theory (12) [N]
+  /// of the child relative to the parent along the joint axis, or the speed of slip [m/s or rad/s]
+  double sliding_velocity = 0.0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the joint's point, in world axes [m]
-  Eigen::Vector3d force =
-      Eigen::Vector3d::Zero();  ///< on the child link at `position`, in world axes [N]
+  /// on the child link at `position`, in world axes [N]
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< on the child link, in world axes [N m]
 };
 
@@ -50,13 +51,13 @@ struct LinkSample {
 /// The names of the entries of a Frame's vectors, in the same order; the same for all frames of a
 /// run.
 struct FrameNames {
-  std::vector<std::string> joints;  ///< every one-coordinate joint of the tree (passive and
-                                    ///< massless ones too), then of the loops
-  std::size_t tree_joints =
-      0;  ///< number of `joints` that belong to the URDF tree; they come first
-  std::vector<std::string> frictions;    ///< joints and loops with friction
-  std::vector<bool> friction_is_torque;  ///< per entry of `frictions`: whether the friction is a
-                                         ///< torque [N m], else a force [N]
+  /// every one-coordinate joint of the tree (passive and massless ones too), then of the loops
+  std::vector<std::string> joints;
+  /// number of `joints` that belong to the URDF tree; they come first
+  std::size_t tree_joints = 0;
+  std::vector<std::string> frictions;  ///< joints and loops with friction
+  /// per entry of `frictions`: whether the friction is a torque [N m], else a force [N]
+  std::vector<bool> friction_is_torque;
   std::vector<std::string> controllers;
   std::vector<std::string> loops;
   std::vector<std::string> links;  ///< every link of the URDF, the root first

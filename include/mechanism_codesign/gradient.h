@@ -45,8 +45,9 @@ struct Evaluation {
   Extremes extremes;  ///< empty if the study has neither constraints on signals nor peaks
   Statistics statistics;
   Warnings warnings;  ///< warnings of the run, as Simulation::warnings()
-  Events events;  ///< of the run, as Simulation::events(); over scenarios the list of the first one
-                  ///< and the number of all, without an order
+  /// of the run, as Simulation::events(); over scenarios the list of the first one and the number
+  /// of all, without an order
+  Events events;
 };
 
 /// Evaluates psi(rho) and its gradient. `solver.gradient` of the study selects direct sensitivities
@@ -85,10 +86,10 @@ class Evaluator {
 
 /// The method that computes the reference of a gradient check.
 enum class CheckMethod {
-  kComplexStep,  ///< complex step through the same sequence of steps; exact to rounding; only for
-                 ///< `rosenbrock`
-  kRidders,  ///< Ridders' extrapolated differences of runs with tight tolerances; independent of
-             ///< the steps
+  /// complex step through the same sequence of steps; exact to rounding; only for `rosenbrock`
+  kComplexStep,
+  /// Ridders' extrapolated differences of runs with tight tolerances; independent of the steps
+  kRidders,
 };
 
 /// What differences of the objective alone say of a gradient: along one direction d, from runs that
@@ -99,9 +100,9 @@ struct IndependentCheck {
   double along = 0.0;         ///< d^T g of the gradient g under check
   double derivative = 0.0;    ///< of the objective along d, by differences
   double error = 0.0;         ///< estimate of the absolute error of `derivative`
-  double allowed = 0.0;  ///< the difference that the study's own tolerances explain, and that moves
-                         ///< no optimum
-  double size = 0.0;     ///< max_k |d_k g_k|, or |derivative| if that is more
+  /// the difference that the study's own tolerances explain, and that moves no optimum
+  double allowed = 0.0;
+  double size = 0.0;                ///< max_k |d_k g_k|, or |derivative| if that is more
   double objective = 0.0;           ///< at the design itself, with the other steps
   std::string method;               ///< of the other steps, as in a study: "rodas5p"
   double relative_tolerance = 0.0;  ///< theirs
@@ -122,8 +123,8 @@ struct GradientCheck {
   Evaluation evaluation;                           ///< objective and gradient g under check
   Eigen::VectorXd reference;                       ///< the reference gradient r
   Eigen::VectorXd reference_error;  ///< error estimate of the reference; zero for the complex step
-  Eigen::MatrixXd extreme_reference;  ///< reference for the gradients in Evaluation::extremes; only
-                                      ///< for kComplexStep
+  /// reference for the gradients in Evaluation::extremes; only for kComplexStep
+  Eigen::MatrixXd extreme_reference;
   /// max_k |g_k - r_k| / max(|r_k|, 1e-3 max_j |r_j|), also over the extremes. Along a direction d:
   /// |d^T g - r| / max_k |d_k g_k|.
   double largest_relative_difference = 0;

@@ -18,19 +18,21 @@ namespace codesign {
 struct Trial {
   int evaluation = 0;  ///< number of the evaluation, from 1
   int iteration = 0;   ///< how often the best point has improved so far
-  Status status;  ///< not ok: the point could not be assembled or integrated; the search turns back
-                  ///< from it
+  /// not ok: the point could not be assembled or integrated; the search turns back from it
+  Status status;
   double objective = 0.0;      ///< psi; not valid if the status is not ok
   double gradient_norm = 0.0;  ///< norm of the gradient by the scaled variables x of (24)
   Eigen::VectorXd gradient;    ///< psi_rho
   Eigen::VectorXd rho;         ///< the trial point
-  int start = 0;  ///< number of the search in a study with several starts, from 1, in the order in
-                  ///< which the searches began
-  double best_objective =
-      0.0;  ///< at the best point so far; a point that violates the constraints less is better
-  double best_violation = 0.0;  ///< largest violation of a constraint at that point, beyond its
-                                ///< tolerance; 0 if all constraints are met
-  std::int64_t events = 0;      ///< number of events in the runs at the trial point
+  /// number of the search in a study with several starts, from 1, in the order in which the
+  /// searches began
+  int start = 0;
+  /// at the best point so far; a point that violates the constraints less is better
+  double best_objective = 0.0;
+  /// largest violation of a constraint at that point, beyond its tolerance; 0 if all constraints
+  /// are met
+  double best_violation = 0.0;
+  std::int64_t events = 0;  ///< number of events in the runs at the trial point
 };
 
 /// Called after each trial point; returning false ends the search with kCancelled and the best
@@ -43,11 +45,11 @@ struct ScenarioResult {
   std::string run;      ///< name of the run; empty if the study has none
   int sample = -1;      ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;  ///< w; the sum over all scenarios is 1
-  std::vector<std::pair<std::string, double>>
-      values;  ///< the parameters that the run or the sample sets
+  /// the parameters that the run or the sample sets
+  std::vector<std::pair<std::string, double>> values;
   double initial_objective = 0.0, objective = 0.0;  ///< psi at the start and the best point
-  std::string friction_law{};  ///< the law of all joints if the study varies it; empty: the laws of
-                               ///< the model
+  /// the law of all joints if the study varies it; empty: the laws of the model
+  std::string friction_law{};
   /// Whether the run failed at the start and at the best point. A failed run counts with the
   /// largest objective of the runs that did not fail.
   bool initial_failed = false, failed = false;
@@ -56,15 +58,18 @@ struct ScenarioResult {
 /// The best point on samples that the search has not seen.
 struct Validation {
   int samples = 0;  ///< fresh samples of each run
-  int failed = 0;   ///< scenarios that could not be integrated; the members below leave them out,
-                    ///< except `promised` and `within`
+  /// scenarios that could not be integrated; the members below leave them out, except `promised`
+  /// and `within`
+  int failed = 0;
   double promised = 0.0;   ///< the measure on the samples of the search
   double objective = 0.0;  ///< the same measure on the fresh samples
   double mean = 0.0, worst = 0.0;
-  double value_at_risk = 0.0;  ///< for the measure cvar: the value that fresh samples exceed with a
-                               ///< probability of at most 1 - level
-  double within = 0.0;  ///< for the measure cvar: share of all fresh samples that do not exceed
-                        ///< EnsembleResult::value_at_risk
+  /// for the measure cvar: the value that fresh samples exceed with a probability of at most 1 -
+  /// level
+  double value_at_risk = 0.0;
+  /// for the measure cvar: share of all fresh samples that do not exceed
+  /// EnsembleResult::value_at_risk
+  double within = 0.0;
 };
 
 /// One local search of several.
@@ -90,16 +95,16 @@ struct WatchedResult {
   double initial_smallest = 0.0, initial_largest = 0;  ///< signal minus reference at the start
   double smallest = 0.0, largest = 0.0;                ///< at the best point
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
-  double violation =
-      0.0;  ///< largest violation of the bounds at the best point; 0 if they are met, and for peaks
+  /// largest violation of the bounds at the best point; 0 if they are met, and for peaks
+  double violation = 0.0;
   int smallest_scenario = 0,
       largest_scenario = 0;  ///< index of the scenario in EnsembleResult::scenarios
   /// The bounds, computed at the best point and the nominal values of the other parameters;
   /// infinite where the study gives none, and for peaks in the objective.
   double lower = -std::numeric_limits<double>::infinity(),
          upper = std::numeric_limits<double>::infinity();
-  double after = 0.0, before = 0.0;  ///< the interval in which the signal is watched [s]; for
-                                     ///< `final` the end of the run
+  /// the interval in which the signal is watched [s]; for `final` the end of the run
+  double after = 0.0, before = 0.0;
   /// The violation up to which the bounds count as met: the study's, or 1e-5 of the largest
   /// magnitude of the signal at the best point and of its bounds, at least 1e-8.
   double tolerance = 1e-8;
@@ -129,13 +134,14 @@ struct OptimalityResult {
   /// Steps along which psi does not change, by rho, one per column: what moves one parameter by a
   /// hundredth of its range, in a curved valley to first order; theory (24i).
   Eigen::MatrixXd flat_directions;
-  Eigen::MatrixXd flat_points;  ///< the designs beside the best one, as good as it, to which they
-                                ///< lead, one per column
+  /// the designs beside the best one, as good as it, to which they lead, one per column
+  Eigen::MatrixXd flat_points;
   /// Why no slope tells whether the best point is an optimum, as a part of a sentence: psi jumps
   /// with parameters, theory (24k). Empty: the slope tells it; else `stationarity` is not a number.
   std::string unjudged;
-  std::vector<bool> influences;  ///< per tuned parameter: whether the objective or a watched signal
-                                 ///< depended on it at any trial point
+  /// per tuned parameter: whether the objective or a watched signal depended on it at any trial
+  /// point
+  std::vector<bool> influences;
   /// Whether differences of the objective through other steps confirm the gradient at the best
   /// point; not computed for postures, and where the search was interrupted or ended outside its
   /// constraints.
@@ -153,15 +159,15 @@ struct SearchCost {
   int iterations = 0;
   int evaluations = 0;
   int failed_evaluations = 0;
-  Statistics statistics;  ///< sums over all evaluations; drift and energy error are the largest of
-                          ///< any evaluation
+  /// sums over all evaluations; drift and energy error are the largest of any evaluation
+  Statistics statistics;
 };
 
 /// Of a study with runs or uncertain parameters; else empty.
 struct EnsembleResult {
   std::vector<ScenarioResult> scenarios;
-  std::optional<double>
-      value_at_risk;  ///< for the measure cvar: the value at risk on the samples of the search
+  /// for the measure cvar: the value at risk on the samples of the search
+  std::optional<double> value_at_risk;
   std::optional<Validation> validation;  ///< if `robust.validate` requests it
 };
 
@@ -169,8 +175,8 @@ struct EnsembleResult {
 struct MultistartResult {
   std::vector<StartResult> starts;  ///< the searches, best start first
   std::vector<Optimum> optima;      ///< best first
-  int screened = 0, unusable = 0;   ///< number of points evaluated to choose the starts, and of
-                                    ///< these the number of failed points
+  /// number of points evaluated to choose the starts, and of these the number of failed points
+  int screened = 0, unusable = 0;
 };
 
 /// The best point of an optimization and how the search ended.
@@ -179,13 +185,12 @@ struct OptimizationResult {
   /// found; or, if the start value could not be evaluated, the status of that evaluation. Only in
   /// the last case the members below hold no point.
   Status status;
-  std::string termination;  ///< why the search ended, in snake case: "objective_tolerance_reached",
-                            ///< "max_evaluations_reached", "cancelled",
-                            ///< ...; "stopped_early" if its algorithms ended at a point that is not
-                            ///< stationary, or where differences of the objective refute the
-                            ///< gradient
-  std::string algorithm;    ///< that searched; of `auto` all that went on with the search, in their
-                            ///< order, with commas
+  /// why the search ended, in snake case: "objective_tolerance_reached", "max_evaluations_reached",
+  /// "cancelled", ...; "stopped_early" if its algorithms ended at a point that is not stationary,
+  /// or where differences of the objective refute the gradient
+  std::string termination;
+  /// that searched; of `auto` all that went on with the search, in their order, with commas
+  std::string algorithm;
   DesignPoint initial;
   DesignPoint best;  ///< the best feasible point seen
   OptimalityResult optimality;
@@ -193,8 +198,8 @@ struct OptimizationResult {
   SearchCost cost;
   EnsembleResult ensemble;
   MultistartResult multistart;
-  Warnings warnings;  ///< about the best point, and about the search: a parameter without influence
-                      ///< or on its bound
+  /// about the best point, and about the search: a parameter without influence or on its bound
+  Warnings warnings;
 };
 
 /// The result in words: a table of the design, the objective, constraints and scenarios, how the

@@ -10,9 +10,10 @@ namespace codesign {
 struct Statistics {
   std::int64_t steps = 0, rejected_steps = 0;  ///< accepted and rejected steps
   double cpu_seconds = 0.0;                    ///< processor time of the run
-  double constraint_drift = 0.0;  ///< largest drift of positions and velocities after a step, d of
-                                  ///< theory (17a), in the scale of the error test [-]
-  double energy_error = 0.0;      ///< largest error of the energy balance, e of theory (17a) [-]
+  /// largest drift of positions and velocities after a step, d of theory (17a), in the scale of the
+  /// error test [-]
+  double constraint_drift = 0.0;
+  double energy_error = 0.0;        ///< largest error of the energy balance, e of theory (17a) [-]
   std::int64_t explicit_steps = 0;  ///< those of the accepted steps that the explicit pair took
 
   /// Adds another run: steps and processor time add up, drift and energy error are the largest of

@@ -12,24 +12,25 @@ enum class StatusCode {
   kAssemblyFailed,          ///< no configuration satisfies Phi(q) = 0 near the start
   kInitialVelocityFailed,   ///< the given velocities contradict each other
   kInitialReactionsFailed,  ///< no (a, lambda) satisfies the equations of motion at the start
-  kSingularMatrix,    ///< the matrix of the equations of motion became singular (a dead point, a
-                      ///< lock-up)
+  /// the matrix of the equations of motion became singular (a dead point, a lock-up)
+  kSingularMatrix,
   kStepSizeTooSmall,  ///< the error test required a step below the smallest allowed step
   kTooManySteps,      ///< the limit on the number of steps was reached before the end of the study
   kUnstableMotion,    ///< a body's speed exceeded a bound far above what its loads can explain
   kNonFinite,         ///< a value overflowed or became NaN
   kInvalidDesign,     ///< the parameters give an impossible mass, inertia or dimension
-  kSingularConfiguration,  ///< several motions meet at this position (theory (19a)), or constraints
-                           ///< lose rank in the run (theory (17c))
-  kConstraintDrift,        ///< the constraints are violated by more than the tolerances explain
-  kEnergyError,            ///< the energy balance is violated by more than the tolerances explain
-  kInfeasible,             ///< an optimization ended outside its constraints
-  kAlgorithmFailed,        ///< the optimization algorithm gave up
-  kWorkerLost,             ///< a worker process has ended or does not answer
-  kNonFiniteGradient,      ///< the objective is finite, its gradient is not
-  kNoEquilibrium,          ///< no posture was found in which the mechanism rests
-  kNotIdentifiable,        ///< the recordings do not determine all numbers to be identified
-  kSwitchHolds,            ///< the motion on both sides of a switch leads back to it
+  /// several motions meet at this position (theory (19a)), or constraints lose rank in the run
+  /// (theory (17c))
+  kSingularConfiguration,
+  kConstraintDrift,    ///< the constraints are violated by more than the tolerances explain
+  kEnergyError,        ///< the energy balance is violated by more than the tolerances explain
+  kInfeasible,         ///< an optimization ended outside its constraints
+  kAlgorithmFailed,    ///< the optimization algorithm gave up
+  kWorkerLost,         ///< a worker process has ended or does not answer
+  kNonFiniteGradient,  ///< the objective is finite, its gradient is not
+  kNoEquilibrium,      ///< no posture was found in which the mechanism rests
+  kNotIdentifiable,    ///< the recordings do not determine all numbers to be identified
+  kSwitchHolds,        ///< the motion on both sides of a switch leads back to it
 };
 
 /// Snake-case name, as sent over ROS and printed in JSON: "assembly_failed".

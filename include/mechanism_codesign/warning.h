@@ -10,11 +10,12 @@ namespace codesign {
 
 /// Something doubtful that does not stop the work. doc/warnings.md lists the codes.
 struct Warning {
-  std::string code;     ///< snake case, stable: "undetermined_friction"
-  std::string message;  ///< the sentence shown to the user: file, line, value, what was done and
-                        ///< how to silence the warning
-  SourceLocation
-      where;  ///< an empty file and line 0 where the warning has no single cause in a file
+  std::string code;  ///< snake case, stable: "undetermined_friction"
+  /// the sentence shown to the user: file, line, value, what was done and how to silence the
+  /// warning
+  std::string message;
+  /// an empty file and line 0 where the warning has no single cause in a file
+  SourceLocation where;
 };
 
 using Warnings = std::vector<Warning>;

@@ -326,16 +326,16 @@ class Assembly {
   StuckStart stuck_{system_};
   Warnings warnings_;
   std::vector<std::size_t> contradicting_;
-  std::vector<int> followers_;  ///< per coupling: the coordinate that follows the others; -1 for
-                                ///< the drive of a loop
-  std::vector<bool> follows_;   ///< per coordinate: whether it is in followers_
+  /// per coupling: the coordinate that follows the others; -1 for the drive of a loop
+  std::vector<int> followers_;
+  std::vector<bool> follows_;  ///< per coordinate: whether it is in followers_
   std::vector<bool> position_given_, guess_given_, velocity_given_;
   std::vector<bool> velocity_beside_;  ///< GivenStart
   VectorX<double> theta_, theta_rate_;
   double start_time_ = 0.0;  ///< [s]
   double time_ = 0.0;        ///< of the positions that are sought [s]
-  double posture_ =
-      0.0;  ///< number of the posture that theta_ belongs to, or on the way to the next
+  /// number of the posture that theta_ belongs to, or on the way to the next
+  double posture_ = 0.0;
   VectorX<double> guess_;                 ///< of theta_, instead of the study's; empty: none
   const std::vector<double> own_design_;  ///< the start values of the study's parameters
   Origin origin_;

@@ -25,8 +25,8 @@ struct LoopScales {
 
 /// Closure error of one loop or coupling: the largest of its rows, lengths and angles apart.
 struct LoopMiss {
-  std::string_view
-      owner;  ///< name of the loop or coupling; valid as long as the LoopJacobian and its system
+  /// name of the loop or coupling; valid as long as the LoopJacobian and its system
+  std::string_view owner;
   double length = 0.0;  ///< [m]
   double angle = 0.0;   ///< [rad]; for a coupling, in the unit of its follower's coordinate
 };

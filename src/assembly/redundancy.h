@@ -18,20 +18,22 @@ class CompiledSystem;
 /// The redundant constraints of a mechanism at one position, and the reactions that are therefore
 /// not unique; doc/theory.md (23).
 struct Redundancy {
-  std::vector<ConstraintRow> rows;  ///< redundant rows of loops and couplings, as many as the rank
-                                    ///< lacks; the others are independent
-  std::vector<std::string>
-      undetermined;  ///< joints, loops and couplings whose multipliers are not unique
-  std::vector<std::string>
-      friction_chosen;  ///< the ones of `undetermined` whose friction depends on such a multiplier
+  /// redundant rows of loops and couplings, as many as the rank lacks; the others are independent
+  std::vector<ConstraintRow> rows;
+  /// joints, loops and couplings whose multipliers are not unique
+  std::vector<std::string> undetermined;
+  /// the ones of `undetermined` whose friction depends on such a multiplier
+  std::vector<std::string> friction_chosen;
   std::vector<int> chosen_joints;  ///< the joints of friction_chosen, as indices in the description
-  Eigen::MatrixXd self_stress;    ///< constraints x trials: multipliers s with Phi_q^T s = 0, up to
-                                  ///< the loads of unit Euler parameters
-  Eigen::MatrixXd basis;          ///< constraints x redundant rows: an orthonormal basis of the
-                                  ///< self-stresses; empty beyond 30 redundant rows
+  /// constraints x trials: multipliers s with Phi_q^T s = 0, up to the loads of unit Euler
+  /// parameters
+  Eigen::MatrixXd self_stress;
+  /// constraints x redundant rows: an orthonormal basis of the self-stresses; empty beyond 30
+  /// redundant rows
+  Eigen::MatrixXd basis;
   double stress_threshold = 0.0;  ///< smaller entries of self_stress count as zero
-  ReactionSharing sharing;  ///< compliance not set; `dropped` lacks rows that are redundant only at
-                            ///< this very position
+  /// compliance not set; `dropped` lacks rows that are redundant only at this very position
+  ReactionSharing sharing;
 };
 
 /// Finds the redundant rows of loops and couplings by a pivoted QR factorization of each part of

@@ -19,11 +19,12 @@ class UsageError : public std::runtime_error {
 /// The parts of the command line `codesign COMMAND MODEL [STUDY] [OPTIONS]`. Members of options
 /// name their command.
 struct Arguments {
-  std::string topic;    ///< help; the command that it is about, empty: all
-  std::string command;  ///< check, urdf, overlay, simulate, efforts, equilibrium, gradient,
-                        ///< optimize, identify, excite, new, help or version
-  std::string model;    ///< path; new: of the folder to be made, empty: the machines are listed
-  std::string study;    ///< path; empty: none given
+  std::string topic;  ///< help; the command that it is about, empty: all
+  /// check, urdf, overlay, simulate, efforts, equilibrium, gradient, optimize, identify, excite,
+  /// new, help or version
+  std::string command;
+  std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
+  std::string study;  ///< path; empty: none given
   std::vector<std::string> overlays;  ///< paths, in order
   bool floating_base = false;         ///< --base floating
   std::string result;          ///< path of the result.json with the design to use; empty: none

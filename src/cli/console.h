@@ -18,14 +18,14 @@ namespace codesign::cli {
 struct Console {
   std::ostream& out;  ///< results only
   std::ostream& err;  ///< progress and messages
-  const std::atomic<bool>&
-      cancel;  ///< once set, the command ends soon and keeps its results so far
+  /// once set, the command ends soon and keeps its results so far
+  const std::atomic<bool>& cancel;
   void (*loaded)() =
       nullptr;  ///< called after the input is loaded, before the computation; may be null
   Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
   BagReader bags = {};          ///< reads the bags that a study names; empty: they are refused
-  IdentificationBagWriter identification_bag =
-      {};  ///< writes the bag of an identification; empty: none is written
+  /// writes the bag of an identification; empty: none is written
+  IdentificationBagWriter identification_bag = {};
   TrajectoryBagWriter trajectories = {};  ///< writes bags of trajectories; empty: none are written
 };
 

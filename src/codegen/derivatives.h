@@ -64,10 +64,10 @@ struct JacobianEntry {
 
 /// In which order the intermediate nodes of the linearized graph are eliminated.
 enum class EliminationOrder {
-  kForward,   ///< in the order of computation: forward accumulation
-  kReverse,   ///< in the opposite order: reverse accumulation
-  kMarkowitz  ///< fewest products first, which is forward or reverse block by block, whichever is
-              ///< shorter
+  kForward,  ///< in the order of computation: forward accumulation
+  kReverse,  ///< in the opposite order: reverse accumulation
+  /// fewest products first, which is forward or reverse block by block, whichever is shorter
+  kMarkowitz
 };
 
 /// The derivatives of some nodes of a recording by some of its leaves, by vertex elimination on the
@@ -106,8 +106,8 @@ struct TangentProgram {
                  const std::vector<bool>& is_leaf);
 
   std::vector<Sum> sums;  ///< in the order of computation
-  std::vector<int> row;   ///< per node: index of the derivative among the `rows` intermediate ones,
-                          ///< -1 if it has none
+  /// per node: index of the derivative among the `rows` intermediate ones, -1 if it has none
+  std::vector<int> row;
   std::vector<int> factors;  ///< nodes whose values are needed, each once
   int rows = 0;              ///< number of intermediate derivatives
 };

@@ -163,8 +163,8 @@ class Recording {
   int unused_bits_ = 64;  ///< of 64 bits of a hash
   std::vector<Guard> guards_;
   std::vector<SourceId> supplied_, timed_;
-  std::map<std::pair<int, int>, int>
-      decided_;  ///< index among guards_, by the nodes that are compared
+  /// index among guards_, by the nodes that are compared
+  std::map<std::pair<int, int>, int> decided_;
   std::vector<int> decisions_;
   std::vector<bool> followed_, held_;
   bool records_switches_ = false;

@@ -132,11 +132,11 @@ class Compiler {
   const Recording& recording_;
   const ValueTask& task_;
   std::vector<int> uses_, user_;
-  std::vector<bool>
-      fixed_;  ///< must not be fused, since an output, the caller or a guard needs its value
+  /// must not be fused, since an output, the caller or a guard needs its value
+  std::vector<bool> fixed_;
   std::vector<std::vector<Place>> stores_;
-  std::multimap<int, Recording::Guard>
-      guards_;  ///< by the later of its two nodes, after which it can be checked
+  /// by the later of its two nodes, after which it can be checked
+  std::multimap<int, Recording::Guard> guards_;
 };
 
 }  // namespace

@@ -28,8 +28,8 @@ struct ValueTask {
   };
   std::vector<Output> outputs;
   std::vector<int> kept;  ///< nodes whose values the caller reads from their slots afterwards
-  std::vector<Place>
-      homes;  ///< per node: the place that already has its value; absent if it is to be computed
+  /// per node: the place that already has its value; absent if it is to be computed
+  std::vector<Place> homes;
   std::vector<Recording::Guard> guards;  ///< that must hold for the outputs to be valid
   int reserved_slots = 0;  ///< slots before the slots of the program, which does not change them
 };
@@ -56,8 +56,8 @@ struct ValueProgram {
 
   std::vector<Instruction> instructions;
   std::vector<std::vector<Place>> stores;  ///< per instruction: the places of its result
-  std::vector<int>
-      slot;       ///< per node: its index in the array of intermediate values, -1 if not computed
+  /// per node: its index in the array of intermediate values, -1 if not computed
+  std::vector<int> slot;
   int slots = 0;  ///< size of that array, reserved slots included
 };
 

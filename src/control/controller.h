@@ -72,9 +72,9 @@ struct ControllerStates {
   int filter = -1;  ///< the filtered error; for a sampled controller the filtered rate of the error
   int last = -1;    ///< sampled: the error at the last sample
   int held = -1;    ///< sampled: the output in effect
-  int queue = -1;   ///< sampled: the first of the waiting outputs, whose number is
-                    ///< ControlRealization::queued()
-  int lag = -1;     ///< the effort after the lag of the drive
+  /// sampled: the first of the waiting outputs, whose number is ControlRealization::queued()
+  int queue = -1;
+  int lag = -1;  ///< the effort after the lag of the drive
 };
 
 /// A controller with its names resolved to indices; ControlLaw describes the laws.

@@ -102,13 +102,13 @@ class Reference {
 
   ReferenceDescription::Kind kind_ = ReferenceDescription::Kind::kConstant;
   T offset_{0.0}, amplitude_{0.0}, angular_frequency_{0.0}, phase_{0.0};
-  std::shared_ptr<const SampledFunction>
-      samples_;  ///< scaled by amplitude_, early by phase_, minus offset_
+  /// scaled by amplitude_, early by phase_, minus offset_
+  std::shared_ptr<const SampledFunction> samples_;
   std::shared_ptr<const LiveFunction> live_;
   std::shared_ptr<const Reference<T>> planned_;  ///< in effect until a command sets live_
   std::vector<Knot<T>> knots_;                   ///< workspace of set()
-  std::vector<Piece>
-      pieces_;  ///< by ascending start; the first begins at minus infinity, the last never ends
+  /// by ascending start; the first begins at minus infinity, the last never ends
+  std::vector<Piece> pieces_;
   std::vector<Panel> panels_;       ///< kExpression that is integrated: by ascending begin, from 0
   std::vector<T> areas_;            ///< per piece but the first: the integral from 0 to its start
   std::vector<Reference<T>> rate_;  ///< kIntegral: one entry, the rate

@@ -22,10 +22,11 @@ struct SignalDescription;
 struct SignalReference : CoordinateIndex {
   double factor = 1.0;
   SignalKind kind = SignalKind::kJointPosition;
-  int link = -1;        ///< index of a link
-  int axis = 0;         ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
-  int axes = -1;        ///< link in whose axes a vector is told; -1: the root's, and of a reaction
-                        ///< those of the joint frame that the child carries
+  int link = -1;  ///< index of a link
+  int axis = 0;   ///< component of a vector (x, y, z) or a quaternion (w, x, y, z), from 0
+  /// link in whose axes a vector is told; -1: the root's, and of a reaction those of the joint
+  /// frame that the child carries
+  int axes = -1;
   int controller = -1;  ///< index of a controller
   int spring = -1;      ///< index in RobotDescription::spring_dampers
 };

@@ -10,20 +10,20 @@ namespace codesign {
 /// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive.
 /// Absent numbers have no effect.
 struct ControlRealization {
-  std::optional<Quantity>
-      i_clamp;              ///< kPid: largest magnitude of the integral term [unit of the output]
+  /// kPid: largest magnitude of the integral term [unit of the output]
+  std::optional<Quantity> i_clamp;
   bool antiwindup = false;  ///< kPid: the integral itself stays within i_clamp, not its term alone
-  std::optional<Quantity>
-      derivative_filter;     ///< kPid: time constant of the low-pass filter on the error's rate [s]
-  bool rates_input = false;  ///< kPid: d acts on the rate of minus the input, not on that of the
-                             ///< error
+  /// kPid: time constant of the low-pass filter on the error's rate [s]
+  std::optional<Quantity> derivative_filter;
+  /// kPid: d acts on the rate of minus the input, not on that of the error
+  bool rates_input = false;
   std::optional<Quantity> output_limit;   ///< largest magnitude of the output [unit of the output]
   std::optional<Quantity> time_constant;  ///< of the drive, from the output to the effort [s]
   double sample_time = 0.0;               ///< [s]; 0: the controller is continuous
-  double delay =
-      0.0;  ///< from a sample to the output that follows from it [s]; sampled controllers only
-  double quantization =
-      0.0;  ///< resolution of the measured input, in its unit; 0: none; sampled kPid only
+  /// from a sample to the output that follows from it [s]; sampled controllers only
+  double delay = 0.0;
+  /// resolution of the measured input, in its unit; 0: none; sampled kPid only
+  double quantization = 0.0;
 
   bool is_sampled() const { return sample_time > 0.0; }
   /// Number of outputs that wait at most: computed, but not yet in effect.

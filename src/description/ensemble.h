@@ -38,15 +38,15 @@ struct Distribution {
          deviation = 0.0;  ///< kNormal; a deviation of zero: the mean, within the bounds
   double lower = -std::numeric_limits<double>::infinity();  ///< kUniform; truncation of kNormal
   double upper = std::numeric_limits<double>::infinity();   ///< likewise
-  std::vector<double>
-      choices;  ///< kChoice; for friction laws, the indices of `laws` of UncertainQuantity
+  /// kChoice; for friction laws, the indices of `laws` of UncertainQuantity
+  std::vector<double> choices;
 };
 
 /// How the mean of a normal distribution moves with another number, x_j: by slope (x_j - mean of
 /// x_j).
 struct MeanSlope {
-  std::size_t quantity =
-      0;  ///< j, an earlier entry of the list of uncertain quantities, with a normal distribution
+  /// j, an earlier entry of the list of uncertain quantities, with a normal distribution
+  std::size_t quantity = 0;
   double slope = 0.0;
 };
 
@@ -56,8 +56,8 @@ struct UncertainQuantity {
   std::string name;    ///< of the parameter; "friction_law" for the law
   int parameter = -1;  ///< index in Study::parameters; -1: the friction law
   Distribution distribution;
-  std::vector<std::string>
-      laws;  ///< names of the friction laws to choose from; empty for a parameter
+  /// names of the friction laws to choose from; empty for a parameter
+  std::vector<std::string> laws;
   SourceLocation where;
   /// For a number that depends on others: `distribution` is its distribution given these others;
   /// doc/theory.md (24h).
@@ -103,8 +103,8 @@ struct RunDescription {
   std::string name;
   double weight = 1.0;                              ///< positive; relative to the other runs
   std::vector<std::pair<std::string, double>> set;  ///< values of parameters that are not tuned
-  std::shared_ptr<const Study>
-      study;  ///< the study with the run's changes; null if it changes only `set`
+  /// the study with the run's changes; null if it changes only `set`
+  std::shared_ptr<const Study> study;
   SourceLocation where;
 };
 
@@ -127,9 +127,10 @@ enum class EngineKind {
 constexpr std::array<const char*, 3> kEngineNames{"serial", "threads", "mpi"};
 struct EngineOptions {
   EngineKind kind = EngineKind::kThreads;
-  int workers = 0;         ///< of kThreads; 0: one per processor
-  SourceLocation where{};  ///< place of `engine:` in the study; an empty file if the study has
-                           ///< none: under mpirun the engine is then kMpi
+  int workers = 0;  ///< of kThreads; 0: one per processor
+  /// place of `engine:` in the study; an empty file if the study has none: under mpirun the engine
+  /// is then kMpi
+  SourceLocation where{};
 };
 
 /// Everything of a study that is about more than one run.

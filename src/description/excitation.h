@@ -43,8 +43,8 @@ struct ExcitedJoint {
 
 /// The whole block.
 struct ExcitationDescription {
-  std::vector<ExcitedJoint>
-      joints;  ///< as many as there are degrees of freedom, independent of each other
+  /// as many as there are degrees of freedom, independent of each other
+  std::vector<ExcitedJoint> joints;
   std::vector<MotionLimitDescription> followers;  ///< limits of other joints
   TrajectoryKind trajectory = TrajectoryKind::kFourier;
   double period = 10.0;        ///< [s]
@@ -62,11 +62,11 @@ struct ExcitationDescription {
 /// Where the robot keeps the gains of one controller of the study: an entry of `hardware:`.
 /// doc/study.md describes it and the parameters that control_toolbox::Pid reads there.
 struct HardwareGains {
-  std::string controller;           ///< a `pid` or `pd_gravity` of the study
-  std::string name_space;           ///< of ROS parameters, without a slash at either end:
-                                    ///< "arm_controller/gains/elbow"
-  std::optional<Quantity> i_clamp;  ///< largest effort of the integral term [N m or N]; present if
-                                    ///< the controller has an `i` gain
+  std::string controller;  ///< a `pid` or `pd_gravity` of the study
+  /// of ROS parameters, without a slash at either end: "arm_controller/gains/elbow"
+  std::string name_space;
+  /// largest effort of the integral term [N m or N]; present if the controller has an `i` gain
+  std::optional<Quantity> i_clamp;
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
   SourceLocation where;
 };

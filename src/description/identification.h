@@ -39,8 +39,9 @@ struct MeasuredColumn {
 
 /// The delimiter between the cells of a row.
 enum class CellDelimiter {
-  kAuto,  ///< the first of tab, semicolon and comma that the first row contains; white space if
-          ///< none is there
+  /// the first of tab, semicolon and comma that the first row contains; white space if none is
+  /// there
+  kAuto,
   kComma,
   kSemicolon,
   kTab,
@@ -106,11 +107,11 @@ struct RecordingDescription {
   std::string topic;                               ///< of a bag: sensor_msgs/JointState
   StampKind stamp = StampKind::kHeader;            ///< of a bag
   CellDelimiter delimiter = CellDelimiter::kAuto;  ///< of a table
-  std::optional<ColumnDescription>
-      time;  ///< of a table; without columns they are found by their names
-  std::vector<MeasuredColumn> columns;                     ///< of a table
-  double from = -std::numeric_limits<double>::infinity();  ///< part to use [s]: of the time column,
-                                                           ///< or from the bag's first message
+  /// of a table; without columns they are found by their names
+  std::optional<ColumnDescription> time;
+  std::vector<MeasuredColumn> columns;  ///< of a table
+  /// part to use [s]: of the time column, or from the bag's first message
+  double from = -std::numeric_limits<double>::infinity();
   double to = std::numeric_limits<double>::infinity();
   GapRule gaps = GapRule::kRefuse;
   std::vector<StartPosition> starts;      ///< of joints whose positions are integrated
@@ -124,8 +125,8 @@ struct RecordingDescription {
 struct JointCalibration {
   std::string joint;
   FittedNumber effort_scale{1.0};  ///< e.g. torque constant times gear ratio; not 0
-  FittedNumber delay{0.0};   ///< by which the recorded effort is late beside the recorded motion
-                             ///< [s]; negative: early
+  /// by which the recorded effort is late beside the recorded motion [s]; negative: early
+  FittedNumber delay{0.0};
   FittedNumber offset{0.0};  ///< recorded beyond the effort that the mechanism needs [N m or N]
   SourceLocation where;
 };
@@ -169,8 +170,8 @@ constexpr std::array<const char*, 3> kNoiseNames{"white", "correlated", "bootstr
 struct IntervalOptions {
   double level = 0.95;  ///< in (0, 1)
   NoiseModel noise = NoiseModel::kCorrelated;
-  int lag =
-      0;  ///< of the kernel, or length of the blocks, in fitted samples; 0: chosen automatically
+  /// of the kernel, or length of the blocks, in fitted samples; 0: chosen automatically
+  int lag = 0;
   bool profiles = false;  ///< intervals of the profile likelihood, too
 };
 

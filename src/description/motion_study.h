@@ -29,14 +29,14 @@ struct InitialJointState {
   /// Values of `position` in the postures of the study, MotionStudy::postures of them; empty:
   /// `position` is that of all.
   std::vector<Quantity> positions;
-  std::optional<double> guess;  ///< start of the assembly for a dependent coordinate, which selects
-                                ///< the branch [rad or m]
+  /// start of the assembly for a dependent coordinate, which selects the branch [rad or m]
+  std::optional<double> guess;
   // For planar and floating joints only, in the joint frame at zero position, which is fixed in the
   // parent. A planar joint turns about its normal only: its rotation and angular_velocity use the
   // last component.
   std::optional<QuantityVector> translation;  ///< of the child's frame [m]
-  std::optional<QuantityVector>
-      rotation;  ///< of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
+  /// of the child: fixed-axis roll, pitch, yaw, as URDF's rpy [rad]
+  std::optional<QuantityVector> rotation;
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
   std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
   bool stuck = false;  ///< at rest, held by the bristles of its friction, theory (13h)
@@ -56,9 +56,9 @@ struct ControllerDescription {
   ControllerKind kind = ControllerKind::kPid;
   SignalDescription input;        ///< only if kind->has_error()
   ReferenceDescription setpoint;  ///< only if kind->has_error()
-  std::string output;  ///< the joint it drives, by a torque [N m] or a force [N]; empty: only other
-                       ///< controllers read it
-  Quantity p, i, d;    ///< gains; only those that kind->gains names
+  /// the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
+  std::string output;
+  Quantity p, i, d;                    ///< gains; only those that kind->gains names
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
@@ -79,16 +79,17 @@ struct LoadDescription {
   LoadFunction effort;                        ///< of a joint, along its coordinate [N m or N]
   std::array<LoadFunction, 3> force, torque;  ///< on a link [N], [N m]
   QuantityVector point;                       ///< where the force acts, in the link's frame [m]
-  bool in_link_frame = false;  ///< components of force and torque in the link's axes, turning with
-                               ///< it; else in the root link's axes
+  /// components of force and torque in the link's axes, turning with it; else in the root link's
+  /// axes
+  bool in_link_frame = false;
   SourceLocation where;
 };
 
 /// A joint whose motion is given; theory (8b).
 struct GivenMotion {
-  std::string joint;              ///< revolute, continuous or prismatic, of the tree or a loop
-  ReferenceDescription position;  ///< of its coordinate [rad or m]; kIntegral if its velocity is
-                                  ///< given
+  std::string joint;  ///< revolute, continuous or prismatic, of the tree or a loop
+  /// of its coordinate [rad or m]; kIntegral if its velocity is given
+  ReferenceDescription position;
   SourceLocation where;
 };
 
@@ -106,8 +107,8 @@ struct LimitOptions {
   bool effort = false;              ///< saturates the controllers' output
   bool position = false;            ///< adds stops at `lower` and `upper`
   std::optional<double> stiffness;  ///< k of a stop [N/m or N m/rad]
-  std::optional<double>
-      dissipation;  ///< c of a stop: relative increase of its force per speed [s/m or s/rad]
+  /// c of a stop: relative increase of its force per speed [s/m or s/rad]
+  std::optional<double> dissipation;
   std::optional<double> width;  ///< w: depth over which the force sets in smoothly [m or rad]
 };
 
@@ -155,11 +156,11 @@ struct MotionStudy {
   std::set<int> used_parameters;
   std::vector<ParameterSwitch> switches;  ///< of its numbers and those of the model
   std::vector<int> tuned;                 ///< indices of the tuned parameters; p of them
-  std::vector<ObjectiveTerm> integral;  ///< terms of the integrand g, or of the sum over postures;
-                                        ///< theory (21), (21f)
+  /// terms of the integrand g, or of the sum over postures; theory (21), (21f)
+  std::vector<ObjectiveTerm> integral;
   std::vector<ObjectiveTerm> terminal;  ///< terms at the end of the study, w; theory (21)
-  std::vector<WatchedSignal>
-      watched;  ///< constraints on signals and peaks in the objective; theory (21a)
+  /// constraints on signals and peaks in the objective; theory (21a)
+  std::vector<WatchedSignal> watched;
   LimitOptions limits;
   SolverOptions solver;
   std::string file;  ///< the file it was read from, for messages

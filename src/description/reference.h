@@ -98,8 +98,8 @@ struct IntegralDescription {
 /// An expression of the time and of parameters; theory (C2c).
 struct TimeExpression {
   std::shared_ptr<const Expression> formula;
-  int time = -1;  ///< index of the time t [s] among the names of the formula; the others are
-                  ///< parameters
+  /// index of the time t [s] among the names of the formula; the others are parameters
+  int time = -1;
   /// Of a formula with kinks or jumps: per dependency the parameter itself, null for the time.
   std::vector<std::shared_ptr<const Expression>> parameters{};
 };

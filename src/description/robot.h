@@ -54,11 +54,12 @@ struct FrictionDescription : FrictionNumbers<Quantity> {
 
   FrictionModel model = FrictionModel::kBrownMcPhee;
   bool is_direct = false;  ///< in N m or N, theory (10a); else coefficients over a normal force
-  bool is_directional =
-      false;  ///< a number for motion against the axis is given; else they are unused
-  bool has_exponent = false;        ///< viscous_exponent is given
-  bool transition_follows = false;  ///< transition_velocity is not given and follows the machine,
-                                    ///< theory (13i); its value is that without any mass
+  /// a number for motion against the axis is given; else they are unused
+  bool is_directional = false;
+  bool has_exponent = false;  ///< viscous_exponent is given
+  /// transition_velocity is not given and follows the machine, theory (13i); its value is that
+  /// without any mass
+  bool transition_follows = false;
   std::optional<std::array<double, 3>> transverse_axis;  ///< x'' in the joint frame
   SourceLocation where;
 };
@@ -73,9 +74,9 @@ struct PoseDescription {
 struct ShapeDescription {
   enum class Kind { kBox, kCylinder, kSphere, kMesh };
   Kind kind = Kind::kMesh;
-  PoseDescription origin;        ///< in the link frame; a cylinder's axis is its z
-  std::array<Quantity, 3> size;  ///< box: x y z; cylinder: radius, length; sphere: radius [m];
-                                 ///< mesh: its scale
+  PoseDescription origin;  ///< in the link frame; a cylinder's axis is its z
+  /// box: x y z; cylinder: radius, length; sphere: radius [m]; mesh: its scale
+  std::array<Quantity, 3> size;
   std::shared_ptr<const MeshMoments> mesh;  ///< kMesh: in the unit of its file
 };
 
@@ -128,8 +129,8 @@ struct TorsionSpringDescription {
 /// The losses of an actuator's gear and motor, theory (9b).
 struct GearDescription {
   std::optional<Quantity> efficiency;  ///< eta, 0 ... 1; none: no loss by torque
-  std::optional<Quantity>
-      backdrive_efficiency;   ///< eta_b, at most 1; none: as many losses per torque
+  /// eta_b, at most 1; none: as many losses per torque
+  std::optional<Quantity> backdrive_efficiency;
   Quantity coulomb, viscous;  ///< T_c [N m] and b [N m s/rad] at the motor's shaft
   FrictionDescription slip;   ///< law of the flanks, direct, with T_s = T_c = 1 [rad/s or m/s]
 };
@@ -144,8 +145,8 @@ struct ElasticGearDescription {
 /// (9a). The rotor is carried by the parent link and turns about the joint's axis.
 struct ActuatorDescription {
   Quantity gear_ratio{1.0};  ///< n, rotor rate per joint rate [-, or rad/m on a prismatic joint]
-  Quantity
-      rotor_inertia;  ///< J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
+  /// J_r about the rotor's axis [kg m^2]; reflected to the joint as n^2 J_r
+  Quantity rotor_inertia;
   std::optional<GearDescription> gear;
   std::optional<ElasticGearDescription> elastic;  ///< none: the gear is rigid
   SourceLocation where;
@@ -157,21 +158,21 @@ struct JointDescription {
   JointType type = JointType::kFixed;
   std::optional<PairKind> own_kind;  ///< kOther: the row that the file names
   bool is_loop = false;
-  bool in_plane = false;  ///< of a loop: reactions out of the plane of its motion are stated to be
-                          ///< zero; theory (23c)
+  /// of a loop: reactions out of the plane of its motion are stated to be zero; theory (23c)
+  bool in_plane = false;
   int parent = -1,
       child = -1;  ///< indices into RobotDescription::links; of a loop: predecessor, successor
   PoseDescription origin;  ///< joint frame at zero position in the parent's link frame
-  PoseDescription
-      child_origin;  ///< joint frame in the child's link frame; the identity for a tree joint
+  /// joint frame in the child's link frame; the identity for a tree joint
+  PoseDescription child_origin;
   QuantityVector axis{1.0, 0.0, 0.0};  ///< in the joint frame, not necessarily of unit length
   QuantityVector second_axis{
       0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
   Quantity distance;   ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
   Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
-  double dry_transition_velocity =
-      1e-2;  ///< of dry_friction [rad/s or m/s]: no file gives it; theory (13)
+  /// of dry_friction [rad/s or m/s]: no file gives it; theory (13)
+  double dry_transition_velocity = 1e-2;
   std::optional<LimitDescription> limit;
   std::optional<MimicDescription> mimic;
   std::optional<TorsionSpringDescription> spring;
@@ -182,8 +183,9 @@ struct JointDescription {
   /// Of a joint with one coordinate: where the study starts it, `position` or `guess` [rad or m];
   /// it tells apart the two triples of Euler angles that are one orientation.
   std::optional<Quantity> start_position;
-  int motor = -1;         ///< the joint of the motor's side of an elastic gear, with_motor_sides();
-                          ///< -1: motor and joint move together
+  /// the joint of the motor's side of an elastic gear, with_motor_sides(); -1: motor and joint move
+  /// together
+  int motor = -1;
   bool is_motor = false;  ///< it is such a joint
   SourceLocation where;
 
@@ -241,8 +243,8 @@ struct RobotDescription {
 
   std::string name;
   std::vector<Parameter> parameters;
-  std::set<int> used_parameters;  ///< indices of the parameters on which a number of the file
-                                  ///< depends, visuals included
+  /// indices of the parameters on which a number of the file depends, visuals included
+  std::set<int> used_parameters;
   std::vector<ParameterSwitch> switches;  ///< of its numbers
   std::vector<LinkDescription> links;
   int root = 0;                          ///< index of the root link, which is the ground

@@ -18,10 +18,11 @@ struct SignalTerm {
   double factor = 1.0;   ///< +1 or -1
   std::string object;    ///< name of a joint, loop, link or controller
   std::string quantity;  ///< position, velocity, effort, friction, ...; the list is in doc/study.md
-  std::string
-      component;       ///< x, y, z (of a link's orientation also w), or empty for scalar quantities
-  std::string axes{};  ///< of a vector: the link in whose axes it is told, or kGroundAxes; empty:
-                       ///< those of the quantity, SignalFacts::axes
+  /// x, y, z (of a link's orientation also w), or empty for scalar quantities
+  std::string component;
+  /// of a vector: the link in whose axes it is told, or kGroundAxes; empty: those of the quantity,
+  /// SignalFacts::axes
+  std::string axes{};
 };
 
 /// The root link as the name of axes, unless a link has this name.
@@ -30,9 +31,10 @@ inline constexpr const char* kGroundAxes = "ground";
 /// An expression of signals, parameters and the time t: `${crank/effort * crank/velocity}`.
 struct SignalFormula {
   ExpressionSteps steps;
-  std::vector<std::string> names;  ///< of the variables of the steps: signals, of which the k-th is
-                                   ///< SignalDescription::terms[k], and names without a slash
-  std::string text;                ///< what stands inside ${...}
+  /// of the variables of the steps: signals, of which the k-th is SignalDescription::terms[k], and
+  /// names without a slash
+  std::vector<std::string> names;
+  std::string text;  ///< what stands inside ${...}
 };
 
 /// A sum or difference of named signals, or an expression of signals; see doc/study.md.
@@ -90,12 +92,12 @@ struct WatchedSignal {
   Measure measure = Measure::kNone;
   SignalDescription signal;
   ReferenceDescription reference;  ///< 0 unless given
-  std::optional<Quantity> lower,
-      upper;  ///< of kPath, kFinal and kBounded, at least one of them; in the unit of the signal,
-              ///< of arrival and dwell in s
-  Quantity band_lower, band_upper;   ///< of kArrival and kDwell, in the unit of the signal
-  std::optional<double> tolerance;   ///< violation of a bound that counts as met, positive; empty:
-                                     ///< from the range of the signal
+  /// of kPath, kFinal and kBounded, at least one of them; in the unit of the signal, of arrival and
+  /// dwell in s
+  std::optional<Quantity> lower, upper;
+  Quantity band_lower, band_upper;  ///< of kArrival and kDwell, in the unit of the signal
+  /// violation of a bound that counts as met, positive; empty: from the range of the signal
+  std::optional<double> tolerance;
   double weight = 1.0;               ///< of kPeak, positive; of kTerm, not zero
   double after = 0.0, before = 0.0;  ///< the interval [s]; for kFinal both are the duration
   std::string element;               ///< its place in the study, for messages: `path[0]`

@@ -31,10 +31,10 @@ enum class SignalKind {
   kJointNormalForce,
   kJointSlidingVelocity,
   kFrictionPower,
-  kGearLoss,        ///< what gear and motor lose, on the child
-  kGearTorque,      ///< torque that the gear of a joint transmits; theory (9b)
-  kReactionForce,   ///< on the child of a joint, in the axes of the joint frame that the child
-                    ///< carries; theory (11a)
+  kGearLoss,    ///< what gear and motor lose, on the child
+  kGearTorque,  ///< torque that the gear of a joint transmits; theory (9b)
+  /// on the child of a joint, in the axes of the joint frame that the child carries; theory (11a)
+  kReactionForce,
   kReactionTorque,  ///< likewise, about the origin of that frame
   kControllerError,
   kControllerSetpoint,
@@ -45,8 +45,8 @@ enum class SignalKind {
   kLinkAcceleration,
   kLinkAngularVelocity,
   kLinkAngularAcceleration,
-  kLinkOrientation,     ///< component w, x, y or z of the quaternion in the root link's frame; axis
-                        ///< 0 is w
+  /// component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
+  kLinkOrientation,
   kImuAcceleration,     ///< proper acceleration of a link's origin, in its own axes; theory (11c)
   kImuAngularVelocity,  ///< of a link, in its own axes
   kSpringForce,         ///< tension of a spring-damper; theory (13b)
@@ -78,8 +78,9 @@ enum class SignalKind {
 /// their work is in the potential energy.
 enum class PowerKind {
   kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
-  kDamping,   ///< `<dynamics damping>`, the dampers of torsion springs, spring-dampers and elastic
-              ///< gears, and the dissipation of stops
+  /// `<dynamics damping>`, the dampers of torsion springs, spring-dampers and elastic gears, and
+  /// the dissipation of stops
+  kDamping,
   kActuator,  ///< controllers, as applied within the effort limits, and drives
   kLoad       ///< the study's efforts and wrenches
 };
@@ -112,8 +113,9 @@ struct SignalFacts {
   SignalKind kind;
   SignalOwner owner;
   const char* quantity;  ///< as files spell it; empty if they do not
-  const char* unit;      ///< q and Q stand for the units of position and effort of the joint, or of
-                         ///< the joint that a controller drives; e for that of a controller's input
+  /// q and Q stand for the units of position and effort of the joint, or of the joint that a
+  /// controller drives; e for that of a controller's input
+  const char* unit;
   bool (*is_of)(const JointDescription&);  ///< whether a joint has it; null: every owner has it
   SignalNeeds needs;
   SignalKind rate = SignalKind::kNone;  ///< its time derivative

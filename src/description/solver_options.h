@@ -49,10 +49,10 @@ struct SolverOptions {
   double initial_step = 0.0;   ///< [s]; 0: chosen automatically
   double maximum_step = 0.0;   ///< [s]; 0: no limit
   int maximum_steps = 200000;  ///< a run that needs more fails
-  double maximum_speed = 0.0;  ///< a run fails when a body moves faster [m/s] or turns faster
-                               ///< [rad/s]; 0: chosen by MotionWatch
-  double closure_tolerance =
-      1e-3;  ///< largest closure error of a loop at the start [m and rad]; theory (19)
+  /// a run fails when a body moves faster [m/s] or turns faster [rad/s]; 0: chosen by MotionWatch
+  double maximum_speed = 0.0;
+  /// largest closure error of a loop at the start [m and rad]; theory (19)
+  double closure_tolerance = 1e-3;
 };
 
 }  // namespace codesign

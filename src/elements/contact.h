@@ -18,22 +18,23 @@ template <class T>
 struct FrictionState {
   T velocity{0.0};  ///< rate of the coordinate, child relative to parent [m/s or rad/s]
   T normal{0.0};    ///< normal force N [N]; zero for `<dynamics friction>`
-  T load{0.0};      ///< L, positive against the motion, viscous part included [N or N m]; the child
-                    ///< feels -L
+  /// L, positive against the motion, viscous part included [N or N m]; the child feels -L
+  T load{0.0};
 };
 
 /// Isotropic friction of one pair (a table, a planar or a spherical joint) at one instant; theory
 /// (13a). Vectors have one entry per slip coordinate; entries beyond `size` are zero.
 template <class T>
 struct ContactFriction {
-  std::size_t size =
-      0;  ///< number of slip coordinates: 2 for a table, 3 for planar and spherical joints
-  std::size_t reported = 0;  ///< the first ones make up the reported speed and friction: two slides
-                             ///< of a plane, all three of a ball
+  /// number of slip coordinates: 2 for a table, 3 for planar and spherical joints
+  std::size_t size = 0;
+  /// the first ones make up the reported speed and friction: two slides of a plane, all three of a
+  /// ball
+  std::size_t reported = 0;
   std::array<CoordinateMotion<T>, 3> motion;
   T normal{0.0};  ///< N [N], theory (12)
-  Vector3<T> load =
-      Vector3<T>::Zero();  ///< L, positive against the rate, viscous part included [N or N m]
+  /// L, positive against the rate, viscous part included [N or N m]
+  Vector3<T> load = Vector3<T>::Zero();
 
   /// Speed of the joint's point [m/s], or |omega| of a ball [rad/s].
   T speed() const {

@@ -25,19 +25,19 @@ namespace codesign {
 /// Guarded by the mutex of the Dispatcher.
 struct RankBatch {
   const std::vector<EvaluationTask>& tasks;
-  const std::vector<std::uint32_t>
-      systems;  ///< per task: index of its system in distinct_systems()
+  /// per task: index of its system in distinct_systems()
+  const std::vector<std::uint32_t> systems;
   const std::uint32_t problem;
   const std::atomic<bool>* cancel;
 
   std::size_t next = 0;  ///< the first task that no rank has taken
-  std::size_t done = 0;  ///< number of tasks with a result or an exception, and of tasks that have
-                         ///< none because of `ended`
+  /// number of tasks with a result or an exception, and of tasks that have none because of `ended`
+  std::size_t done = 0;
   /// Answers of workers, by task, that the calling thread has yet to parse. Callers parse them,
   /// since they wait anyway and may be many.
   std::vector<std::pair<std::size_t, std::string>> arrived{};
-  std::vector<std::pair<std::size_t, Evaluation>>
-      computed{};  ///< results that rank 0 has computed itself
+  /// results that rank 0 has computed itself
+  std::vector<std::pair<std::size_t, Evaluation>> computed{};
   std::exception_ptr error{};
   Status ended{};  ///< not ok: the status of all tasks without a result
   /// After a cancel: the ping that every worker must answer before the batch ends, and the time at
@@ -65,8 +65,8 @@ struct RankState {
   PollPause::Clock::time_point heard,
       addressed;           ///< time of the last message from this rank and to it
   std::uint64_t pong = 0;  ///< the last ping that the rank has answered
-  std::vector<SentTask>
-      sent{};  ///< tasks without an answer, at most two: one runs, and one waits at the rank
+  /// tasks without an answer, at most two: one runs, and one waits at the rank
+  std::vector<SentTask> sent{};
   std::set<std::uint32_t> problems{};  ///< problems that were sent to this rank
 };
 

@@ -30,11 +30,12 @@ enum class MessageKind : std::uint8_t {
   // To the others.
   kProblem,  ///< number of the problem, PortableProblem
   kTask,     ///< TaskMessage
-  kCancel,   ///< number of the task; the rank drops a waiting task without an answer and answers a
-             ///< running one early
-  kForget,   ///< number of the problem
-  kPing,     ///< number of the ping
-  kEnd,      ///< the job is over
+  /// number of the task; the rank drops a waiting task without an answer and answers a running one
+  /// early
+  kCancel,
+  kForget,  ///< number of the problem
+  kPing,    ///< number of the ping
+  kEnd,     ///< the job is over
   // To both.
   kSign  ///< sign of life, without fields
 };

@@ -31,11 +31,11 @@ struct RankTimes {
   using Duration = PollPause::Clock::duration;
   Duration first_sign = std::chrono::seconds(60);  ///< limit for the first message of a rank
   Duration silence = std::chrono::seconds(15);     ///< silence after which a worker counts as lost
-  Duration sign =
-      std::chrono::seconds(3);  ///< period of signs of life while there is no other message to send
+  /// period of signs of life while there is no other message to send
+  Duration sign = std::chrono::seconds(3);
   Duration orphaned = std::chrono::seconds(30);  ///< silence of rank 0, after which a worker ends
-  Duration goodbye =
-      std::chrono::seconds(2);  ///< limit for the answers of all workers to the end of the job
+  /// limit for the answers of all workers to the end of the job
+  Duration goodbye = std::chrono::seconds(2);
   /// Limit for the answers of all workers to the ping after a cancel. It is short, since mpirun
   /// ends a job within a second after one of its ranks was killed; run_on_ranks() extends it where
   /// mpirun is told to wait longer.

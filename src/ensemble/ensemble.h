@@ -21,8 +21,8 @@ struct EnsembleEvaluation {
   std::vector<Extremes> extremes;
   Eigen::VectorXd by_value;  ///< derivative of the measure by psi of each scenario
   double threshold = 0.0;    ///< for kCvar and kWorst: the value at risk
-  std::vector<int> failed;   ///< indices of scenarios that could not be integrated and count in the
-                             ///< tail; `total` warns of them
+  /// indices of scenarios that could not be integrated and count in the tail; `total` warns of them
+  std::vector<int> failed;
 };
 
 /// The evaluations of one design, one per scenario in their order.

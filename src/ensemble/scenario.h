@@ -21,12 +21,11 @@ struct Scenario {
   std::string run;  ///< name of the run; empty if the study has none
   int sample = -1;  ///< number of the sample from 0; -1: the nominal values
   double weight = 1.0;
-  std::string
-      friction_law;  ///< the law of all joints if the study varies it; empty: the laws of the model
+  /// the law of all joints if the study varies it; empty: the laws of the model
+  std::string friction_law;
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::pair<int, double>>
-      values;  ///< values of parameters (index in Study::parameters) that differ from their start
-               ///< values
+  /// values of parameters (index in Study::parameters) that differ from their start values
+  std::vector<std::pair<int, double>> values;
 
   /// Values of all named parameters at a design.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;

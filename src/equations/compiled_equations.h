@@ -191,12 +191,12 @@ class CompiledEquations {
   std::vector<bool> mode_;                                                 ///< that is held
   std::vector<double> time_direction_;                                     ///< N entries, or empty
   std::array<std::unique_ptr<CompiledEquations>, kEquationParts> others_;  ///< see holder()
-  std::unique_ptr<CompressedJacobian>
-      compressed_;                          ///< for double, if the system compresses its Jacobian
+  /// for double, if the system compresses its Jacobian
+  std::unique_ptr<CompressedJacobian> compressed_;
   std::vector<VariantInputs<T>> variants_;  ///< the first ones that the system knows, in its order
   std::size_t current_ = 0;                 ///< the variant that served last
-  std::vector<std::size_t>
-      multiplied_;  ///< variants with products since set_design(), in the order of their first one
+  /// variants with products since set_design(), in the order of their first one
+  std::vector<std::size_t> multiplied_;
   std::vector<T> entries_;   ///< workspace of signal() and track_turns()
   VectorX<T> s_;             ///< workspace of sample()
   VectorX<T> residual_;      ///< workspace of mode_of()

@@ -42,11 +42,11 @@ class CompressedJacobian {
 
   /// Columns in groups, and where the results have the nonzeros of the matrices.
   struct Compression {
-    std::vector<std::array<LineVector, 4>>
-        seeds;  ///< per pass the directions of q, v, s and z, kLanes numbers side by side per entry
+    /// per pass the directions of q, v, s and z, kLanes numbers side by side per entry
+    std::vector<std::array<LineVector, 4>> seeds;
     std::vector<Tangents::Pass> passes;  ///< along the seeds, with results in results_
-    ByVariable<std::vector<int>>
-        places;  ///< per nonzero its index in results_; empty for matrices that were not asked for
+    /// per nonzero its index in results_; empty for matrices that were not asked for
+    ByVariable<std::vector<int>> places;
   };
 
   Compression compress(const ByVariable<const Sparsity*>& patterns) const;

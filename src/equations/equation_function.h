@@ -12,15 +12,17 @@ enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  kMotion,      ///< kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates,
-                ///< kAccelerations and kLinearization
-  kSignals,     ///< kTerminal, the residuals of the objective and the watched signals
-  kStart,       ///< kPlacement, kTurns and the controllers' functions
-  kLinearized,  ///< kLinearization, where kRates are recorded without it,
-                ///< CompiledSystem::has_rates_apart()
-  kRates,       ///< kRates and kAccelerations, where simulations differentiate without a program,
-                ///< CompiledSystem::compresses_jacobian()
-  kEnd          ///< number of parts
+  /// kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates, kAccelerations
+  /// and kLinearization
+  kMotion,
+  kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
+  kStart,    ///< kPlacement, kTurns and the controllers' functions
+  /// kLinearization, where kRates are recorded without it, CompiledSystem::has_rates_apart()
+  kLinearized,
+  /// kRates and kAccelerations, where simulations differentiate without a program,
+  /// CompiledSystem::compresses_jacobian()
+  kRates,
+  kEnd  ///< number of parts
 };
 constexpr auto kEquationParts = to_index(EquationPart::kEnd);
 
@@ -30,28 +32,32 @@ enum class EquationFunction : std::size_t {
   kResidual = 0,      ///< G, g
   kLinearization,     ///< G_q, G_v, G_z, G_t
   kConstraintErrors,  ///< Phi, Phi_q v
-  kSwitches,       ///< per switch of the residual, EquationVariant::mode(), the difference y - x of
-                   ///< which it is the sign, positive where x < y; and y
-  kExpressions,    ///< the values of the study's expressions of signals, then g; values only
-  kRates,          ///< G, g, G_z; values only
-  kAccelerations,  ///< z with G = 0, g, values of MassFactor; values only, and only where
-                   ///< EquationVariant::has_accelerations()
-  kEnergies,       ///< body_energies(), their bodies; values only, with a forest
-  kMotionEnd,      ///< number of functions of the part
+  /// per switch of the residual, EquationVariant::mode(), the difference y - x of which it is the
+  /// sign, positive where x < y; and y
+  kSwitches,
+  kExpressions,  ///< the values of the study's expressions of signals, then g; values only
+  kRates,        ///< G, g, G_z; values only
+  /// z with G = 0, g, values of MassFactor; values only, and only where
+  /// EquationVariant::has_accelerations()
+  kAccelerations,
+  kEnergies,   ///< body_energies(), their bodies; values only, with a forest
+  kMotionEnd,  ///< number of functions of the part
 
   kTerminal = 0,       ///< w
   kTerminalGradient,   ///< w, its gradient
   kIntegralResiduals,  ///< theory (22a), one per term of the integrand
   kTerminalResiduals,  ///< one per terminal term
-  kFirstWatched,  ///< signal minus reference; then a function with its gradient as well; then the
-                  ///< same of the other watched signals
+  /// signal minus reference; then a function with its gradient as well; then the same of the other
+  /// watched signals
+  kFirstWatched,
 
-  kPlacement = 0,   ///< q and v at the tree coordinates theta and their rates, in place of q and v
-  kTurns,           ///< the joint positions in State::turns
-  kStuckSlips,      ///< stuck_slips(): accelerations, limits
-  kBristles,        ///< the extra states after begin_bristles()
-  kFirstController  ///< three functions of each controller: its error; the output and the extra
-                    ///< states after its first sample; after others
+  kPlacement = 0,  ///< q and v at the tree coordinates theta and their rates, in place of q and v
+  kTurns,          ///< the joint positions in State::turns
+  kStuckSlips,     ///< stuck_slips(): accelerations, limits
+  kBristles,       ///< the extra states after begin_bristles()
+  /// three functions of each controller: its error; the output and the extra states after its first
+  /// sample; after others
+  kFirstController
 };
 
 /// The function of the k-th watched signal, and of kTerminal or a watched signal with its gradient.

@@ -64,16 +64,16 @@ std::vector<Recording::Guard> checked(std::vector<Recording::Guard> guards, bool
 /// entries of the state, and numbers that depend on the design, the time or a turn reference only.
 struct NumberedRecording {
   Recording recording;
-  std::vector<std::unique_ptr<TangentProgram>>
-      tangents;              ///< per EquationFunction; empty without derivatives
+  /// per EquationFunction; empty without derivatives
+  std::vector<std::unique_ptr<TangentProgram>> tangents;
   std::vector<int> numbers;  ///< the nodes of array kNumbers, in its order
   std::vector<Place> homes;  ///< per node: its array and index; array -1 if the code computes it
 
   /// Per function of time, the entry of kNumbers of its value and of each of its derivatives; -1 if
   /// it is not used.
   std::vector<std::array<int, Recording::kFunctionOrders>> functions;
-  std::vector<std::array<int, 2>>
-      turns;  ///< per turn reference that is used: entry of State::turns, entry of kNumbers
+  /// per turn reference that is used: entry of State::turns, entry of kNumbers
+  std::vector<std::array<int, 2>> turns;
 
   /// Fills the members above from `recording`.
   void number_nodes();
@@ -88,9 +88,9 @@ class EquationVariant {
  public:
   /// The scalar that a function is wanted for.
   struct Scalar {
-    int lanes;      ///< 0 for double and for complex numbers, which are always interpreted
-    bool separate;  ///< only derivatives are computed, from values and directions of the state in
-                    ///< separate arrays
+    int lanes;  ///< 0 for double and for complex numbers, which are always interpreted
+    /// only derivatives are computed, from values and directions of the state in separate arrays
+    bool separate;
     bool interpreted;   ///< without machine code
     bool held = false;  ///< without the guards of switches, whose outcomes the caller holds
   };
@@ -174,16 +174,16 @@ class EquationVariant {
   bool long_ = false;  ///< too long for machine code
   NumberedRecording values_;
   Recording* recording_ = &values_.recording;  ///< while the constructor records
-  std::vector<RecordedFunction>
-      functions_;  ///< per EquationFunction; empty for those of the other part
+  /// per EquationFunction; empty for those of the other part
+  std::vector<RecordedFunction> functions_;
   std::vector<Recording::Guard> design_guards_;
   std::vector<bool> outcomes_, mode_;
   bool ends_run_ = false;
   MassFactor mass_factor_;
 
   mutable std::once_flag differentiated_;
-  mutable NumberedRecording
-      derivatives_;  ///< the nodes of values_, then the nodes that derivatives need
+  /// the nodes of values_, then the nodes that derivatives need
+  mutable NumberedRecording derivatives_;
   mutable std::once_flag transposed_once_;
   mutable std::unique_ptr<TransposedCode> transposed_;
   struct Known {

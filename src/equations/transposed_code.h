@@ -74,8 +74,8 @@ class TransposedCode {
 
   const bool interpreted_;
   NumberedRecording numbered_;
-  std::vector<bool>
-      depends_;  ///< per node: whether it varies with the tuned parameters, at a fixed state
+  /// per node: whether it varies with the tuned parameters, at a fixed state
+  std::vector<bool> depends_;
   std::vector<Transposed> functions_;
   Transposed design_;
   std::size_t sums_ = 0;
@@ -116,8 +116,8 @@ class DesignProducts {
   std::vector<double> parameters_, sums_, timed_, by_expression_, slots_;
   std::vector<Lanes<8>> seeded_;
   std::vector<Lane> lanes_;
-  std::vector<std::array<double, Recording::kFunctionOrders>>
-      orders_;  ///< workspace of add_timed(), per function of time
+  /// workspace of add_timed(), per function of time
+  std::vector<std::array<double, Recording::kFunctionOrders>> orders_;
 };
 
 }  // namespace codesign

@@ -57,11 +57,11 @@ class TurnFollower {
 
   const System& system_;
   std::vector<Way> ways_;
-  std::vector<int> slots_;     ///< entries of State::turns that are references of turns
-  std::vector<int> free_;      ///< in q, first Euler parameter of every free body
-  State<T> between_;           ///< on the line
-  std::vector<double> slope_;  ///< per slot: change of the angle [rad] over the whole line, if it
-                               ///< changes as over its last part
+  std::vector<int> slots_;  ///< entries of State::turns that are references of turns
+  std::vector<int> free_;   ///< in q, first Euler parameter of every free body
+  State<T> between_;        ///< on the line
+  /// per slot: change of the angle [rad] over the whole line, if it changes as over its last part
+  std::vector<double> slope_;
 };
 
 extern template class TurnFollower<double>;

@@ -57,8 +57,8 @@ class VariantInputs {
   bool ready_ = false;  ///< whether the members below belong to the present design
   int failed_ = -1;
   std::vector<T> numbers_, nodes_;  ///< nodes_: workspace, values of the recording's nodes
-  std::vector<std::variant<Reference<T>, ShapedInput<T>>>
-      functions_;                             ///< functions of time, order of the recording
+  /// functions of time, order of the recording
+  std::vector<std::variant<Reference<T>, ShapedInput<T>>> functions_;
   std::unique_ptr<DesignProducts> products_;  ///< if take_products() was called
 };
 

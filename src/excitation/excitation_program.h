@@ -35,8 +35,8 @@ class ExcitationProgram {
   void set_sharpness(double sharpness) { sharpness_ = sharpness; }
 
   struct Value {
-    Status status;  ///< not ok: the motion cannot be followed, or its efforts do not determine all
-                    ///< columns
+    /// not ok: the motion cannot be followed, or its efforts do not determine all columns
+    Status status;
     double criterion = 0.0;  ///< (46a), for the samples of the program
     Eigen::VectorXd limits;  ///< the envelope of each signal
     double worst = 0.0;  ///< largest |z| of all signals at the samples; at most 1 within the limits

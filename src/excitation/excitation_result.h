@@ -14,11 +14,11 @@ namespace codesign {
 /// The predicted uncertainty of one number, identified from a recording along a trajectory.
 struct PredictedNumber {
   std::string name, unit;
-  double nominal = 0.0;           ///< value at which the prediction is made
-  bool is_determined = true;      ///< whether any trajectory determines it
-  double deviation_before = 0.0;  ///< standard deviation with the plain trajectory; infinite if
-                                  ///< that does not determine the number
-  double deviation = 0.0;         ///< standard deviation with the trajectory found
+  double nominal = 0.0;       ///< value at which the prediction is made
+  bool is_determined = true;  ///< whether any trajectory determines it
+  /// standard deviation with the plain trajectory; infinite if that does not determine the number
+  double deviation_before = 0.0;
+  double deviation = 0.0;                ///< standard deviation with the trajectory found
   double half_before = 0.0, half = 0.0;  ///< half the width of the interval
 };
 
@@ -37,9 +37,10 @@ struct ExcitationStart {
 
 /// The result of excite().
 struct ExcitationResult {
-  Status status;            ///< ok, kCancelled, kNotIdentifiable (the other members are set, too),
-                            ///< kInfeasible, or a failure at the start
-  std::string termination;  ///< of the best search
+  /// ok, kCancelled, kNotIdentifiable (the other members are set, too), kInfeasible, or a failure
+  /// at the start
+  Status status;
+  std::string termination;                ///< of the best search
   std::vector<PredictedNumber> numbers;   ///< empty: no trajectory was found
   std::vector<std::string> undetermined;  ///< sentences about numbers that no trajectory determines
   double criterion_before = 0.0,

@@ -25,8 +25,9 @@ struct DrivePath {
 struct PathResponse {
   Eigen::MatrixXd effort;  ///< of the excited joints [N m or N], joints x samples
   Eigen::MatrixXd follower_position, follower_velocity;  ///< followers x samples
-  RowJacobian jacobian;  ///< d effort / d rho, (samples * joints) x tuned parameters, row sample *
-                         ///< joints + k; empty unless requested
+  /// d effort / d rho, (samples * joints) x tuned parameters, row sample * joints + k; empty unless
+  /// requested
+  RowJacobian jacobian;
 };
 
 /// Inverse dynamics of a mechanism along motions that a search proposes, at one design, with exact
@@ -58,8 +59,8 @@ class ExcitedMotion {
   /// differences of exact numbers, (46b).
   struct Slopes {
     Eigen::MatrixXd effort, follower_position, follower_velocity;
-    RowJacobian jacobian;  ///< rows (sample * 3 joints + direction) * joints + k; empty unless the
-                           ///< response had one
+    /// rows (sample * 3 joints + direction) * joints + k; empty unless the response had one
+    RowJacobian jacobian;
   };
   Status differentiate(const DrivePath& path, const PathResponse& response, Slopes* slopes);
 

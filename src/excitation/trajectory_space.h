@@ -66,8 +66,8 @@ class TrajectorySpace {
   const TrajectoryBasis basis_;
   const SampledShapes fine_;
   Eigen::VectorXd rest_middle_, rest_half_;
-  Eigen::MatrixXd
-      scale_;  ///< the coefficient in the joint's unit for an entry of one in x, shapes x joints
+  /// the coefficient in the joint's unit for an entry of one in x, shapes x joints
+  Eigen::MatrixXd scale_;
 };
 
 /// `count` equally spaced times in [0, period).

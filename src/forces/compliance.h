@@ -68,10 +68,10 @@ T stop_energy(const T& excess, const T& stiffness, const T& width) {
 /// The force of a spring-damper.
 template <class T>
 struct SpringForce {
-  T length{0.0};                         ///< l [m]
-  T tension{0.0};                        ///< k (l - l_0) + c l', positive if it pulls [N]
-  Vector3<T> pull = Vector3<T>::Zero();  ///< tension d/l, the force on the first point; -pull acts
-                                         ///< on the second [N]
+  T length{0.0};   ///< l [m]
+  T tension{0.0};  ///< k (l - l_0) + c l', positive if it pulls [N]
+  /// tension d/l, the force on the first point; -pull acts on the second [N]
+  Vector3<T> pull = Vector3<T>::Zero();
 };
 
 /// delta of theory (13b) [m]: far below the length of any spring, it keeps the direction finite

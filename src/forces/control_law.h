@@ -75,9 +75,10 @@ enum class ControlInput {
 /// Inverse dynamics of the tree that hangs on the driven joint.
 enum class ControlLoad {
   kNone,
-  kAtRest,   ///< the load that holds it against gravity, (C5)
-  kDemanded  ///< the load at the accelerations setpoint'' + pid() that all controllers of this kind
-             ///< demand, (C6)
+  kAtRest,  ///< the load that holds it against gravity, (C5)
+  /// the load at the accelerations setpoint'' + pid() that all controllers of this kind demand,
+  /// (C6)
+  kDemanded
 };
 
 /// A control law, one row of the table in control_law.cc: its name, what it reads, and one function
@@ -89,8 +90,8 @@ struct ControlLaw {
   ControlInput input = ControlInput::kSignal;
   ControlLoad load = ControlLoad::kNone;
   bool reads_rate = false;  ///< whether it reads the rate of the error, if there is a gain d
-  bool is_pid = false;  ///< whether the output is pid(), which a robot may also sample, clamp and
-                        ///< filter, (50)-(52)
+  /// whether the output is pid(), which a robot may also sample, clamp and filter, (50)-(52)
+  bool is_pid = false;
 
   /// Whether the law compares an input with a setpoint.
   bool has_error() const {
@@ -103,11 +104,11 @@ class ControllerKind : public RowReference<ControlLaw> {
  public:
   using RowReference::RowReference;
   static const ControllerKind kPid,  ///< p e + i int e dt + d de/dt, with e = setpoint - input
-      kPdGravity,       ///< p e + d de/dt + the load that holds the joint against gravity
-      kComputedTorque,  ///< inverse dynamics of the tree at the acceleration setpoint'' + d de/dt +
-                        ///< p e
-      kStateFeedback,   ///< feedforward - sum gain (signal - reference)
-      kBasis;           ///< a shaped input, a function of time only
+      kPdGravity,  ///< p e + d de/dt + the load that holds the joint against gravity
+      /// inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
+      kComputedTorque,
+      kStateFeedback,  ///< feedforward - sum gain (signal - reference)
+      kBasis;          ///< a shaped input, a function of time only
 };
 
 /// The library's control laws, by name.

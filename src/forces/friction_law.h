@@ -14,8 +14,8 @@ namespace codesign {
 /// (13j), which at rest is zero, or hold a joint that starts stuck, (13h).
 template <class T>
 struct BristleState {
-  Vector3<T> zeta = Vector3<T>::Zero();  ///< deflection times sigma_0, which is a friction per
-                                         ///< normal force [-]; one per slip direction
+  /// deflection times sigma_0, which is a friction per normal force [-]; one per slip direction
+  Vector3<T> zeta = Vector3<T>::Zero();
   T dwell{0.0};  ///< s_dw [-]: 1 after a long rest, 0 while sliding; Gonthier's model only
 };
 
@@ -52,17 +52,18 @@ struct FrictionLaw {
   const char* name;   ///< the value of `<codesign:friction model>`
   const char* title;  ///< its name in sentences
   Law<FrictionCurve> curve{};
-  Law<FrictionPerSpeed> per_speed{};  ///< for joints that slip in several directions; without it,
-                                      ///< curve(|u|)/|u| just beside rest
-  Law<BristleFunction> bristle{};     ///< zeta for each slip coordinate
-  bool dwells = false;                ///< `bristle` also has the state s_dw
-  bool directional = false;  ///< `curve` is linear in mu_s and mu_d, which may differ for motion
-                             ///< against the axis, theory (48)
+  /// for joints that slip in several directions; without it, curve(|u|)/|u| just beside rest
+  Law<FrictionPerSpeed> per_speed{};
+  Law<BristleFunction> bristle{};  ///< zeta for each slip coordinate
+  bool dwells = false;             ///< `bristle` also has the state s_dw
+  /// `curve` is linear in mu_s and mu_d, which may differ for motion against the axis, theory (48)
+  bool directional = false;
   bool divides_by_mu_dynamic = false;  ///< mu_dynamic must not be zero
   bool has_stribeck_velocity = false;  ///< `curve` reads it
-  bool only_above_mu_dynamic = false;  ///< transition_velocity shapes nothing but the friction
-                                       ///< above mu_d: without mu_s > mu_d it has no effect
-  Law<SteadyFunction> steady{};        ///< where contacts start that slip; without it at zero
+  /// transition_velocity shapes nothing but the friction above mu_d: without mu_s > mu_d it has no
+  /// effect
+  bool only_above_mu_dynamic = false;
+  Law<SteadyFunction> steady{};  ///< where contacts start that slip; without it at zero
 
   /// Whether the law uses a number; other numbers are refused, since they would have no effect.
   bool uses(const FrictionNumberRule& rule) const {

@@ -14,13 +14,13 @@ namespace codesign {
 
 /// The commanded joints and controllers of a mechanism.
 struct CommandOptions {
-  std::optional<std::vector<std::string>>
-      joints;                             ///< joints that take efforts; nullopt: drivable_joints()
-  std::vector<std::string> disconnected;  ///< controllers whose output is not applied; inverse
-                                          ///< dynamics then give only the feedback part
-  std::optional<double> duration;         ///< duration of the run [s] in place of the study's
-  double rate =
-      0.0;  ///< instants at which commands may take effect, per second: each one ends a step
+  /// joints that take efforts; nullopt: drivable_joints()
+  std::optional<std::vector<std::string>> joints;
+  /// controllers whose output is not applied; inverse dynamics then give only the feedback part
+  std::vector<std::string> disconnected;
+  std::optional<double> duration;  ///< duration of the run [s] in place of the study's
+  /// instants at which commands may take effect, per second: each one ends a step
+  double rate = 0.0;
 };
 
 /// Every joint of the tree that moves mass, has a coordinate of its own and follows neither another
@@ -56,8 +56,8 @@ struct CommandInputs {
 /// A controller that a trajectory of a joint commands.
 struct TrajectoryFollower {
   std::size_t controller = 0;  ///< index in CommandInputs::controllers
-  bool by_rate = false;  ///< true: the input is the velocity of the joint, and the set-point is the
-                         ///< rate of the trajectory
+  /// true: the input is the velocity of the joint, and the set-point is the rate of the trajectory
+  bool by_rate = false;
 };
 
 /// The controller that a trajectory of a joint commands: the first whose input is the position of

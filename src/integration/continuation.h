@@ -36,8 +36,8 @@ class Continuation {
                        Equations<double>* equations, State<double>* state);
 
   const CompiledSystem& system_;
-  std::unique_ptr<Projection>
-      projection_;  ///< made when first needed, since most runs have no such instant
+  /// made when first needed, since most runs have no such instant
+  std::unique_ptr<Projection> projection_;
 };
 
 }  // namespace codesign

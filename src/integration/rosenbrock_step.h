@@ -181,8 +181,8 @@ class RosenbrockStep {
   State<T> first_;  ///< of an explicit pair: the first stage of the next attempt, if has_first_
   T first_g_{0.0}, last_g_{0.0}, aside_g_{0.0};
   bool has_first_ = false;
-  bool has_derivatives_ =
-      false;  ///< whether derivatives_ are those at end_, where the next step begins
+  /// whether derivatives_ are those at end_, where the next step begins
+  bool has_derivatives_ = false;
   VectorX<T> residual_, z_, constraint_, constraint_rate_, position_correction_,
       velocity_correction_, estimate_;
   double h_ = 0.0;

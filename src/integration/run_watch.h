@@ -167,8 +167,8 @@ class RunWatch {
   double work_ = 0.0, turnover_ = 0.0, scale_ = 0.0, worst_error_ = 0.0;  ///< [J]
   double worst_drift_time_ = 0.0, worst_error_time_ = 0.0;                ///< [s]
   VectorX<double> start_q_, moved_;  ///< q where the balance begins, and what it has changed by
-  double reach_ = 0.0;  ///< r of (17a), at most 1: how far the motion has come, relative to what
-                        ///< its tolerances resolve
+  /// r of (17a), at most 1: how far the motion has come, relative to what its tolerances resolve
+  double reach_ = 0.0;
   int unbalanced_steps_ = 0;  ///< consecutive steps with an energy error above RunLimit::failure
 };
 

@@ -44,8 +44,8 @@ class SingularityWatch {
   int rank(Equations<double>* equations, const State<double>& state) const;
 
   const CompiledSystem& system_;
-  std::unique_ptr<IterationMatrix>
-      matrix_;  ///< allocated at the first peak, since few runs have one
+  /// allocated at the first peak, since few runs have one
+  std::unique_ptr<IterationMatrix> matrix_;
   Linearization<double> derivatives_;
   VectorX<double> response_;
   std::array<Point, 3> points_;

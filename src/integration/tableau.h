@@ -25,13 +25,14 @@ struct RosenbrockTableau {
   int order;  ///< order of y_1; the embedded solution is one order lower
   double gamma;
   std::array<Row, kMaximumStages> a, c;
-  Row weights;         ///< m_j of y_1
-  Row alpha, gamma_i;  ///< alpha_i = sum of alpha_ij, gamma_i = sum of gamma_ij, for equations that
-                       ///< depend on time
-  int dense_terms;     ///< rows of `dense` in use
-  std::array<Row, 3> dense;  ///< y(theta) = (1-theta) y + theta (y_1 + (1-theta) (d_0 + theta (d_1
-                             ///< + theta d_2))), d_k = sum_j dense_kj u_j
-  Row estimate{};            ///< of an explicit pair
+  Row weights;  ///< m_j of y_1
+  /// alpha_i = sum of alpha_ij, gamma_i = sum of gamma_ij, for equations that depend on time
+  Row alpha, gamma_i;
+  int dense_terms;  ///< rows of `dense` in use
+  /// y(theta) = (1-theta) y + theta (y_1 + (1-theta) (d_0 + theta (d_1 + theta d_2))), d_k = sum_j
+  /// dense_kj u_j
+  std::array<Row, 3> dense;
+  Row estimate{};  ///< of an explicit pair
 
   bool is_explicit() const { return gamma == 0.0; }
 };

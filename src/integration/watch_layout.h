@@ -24,8 +24,8 @@ class WatchLayout {
   /// The numbers of one watched signal.
   struct Entry {
     int first = 0;  ///< place of the value at the first instant
-    std::vector<double>
-        instants;              ///< [s], ascending; one for the end of the study, else at least two
+    /// [s], ascending; one for the end of the study, else at least two
+    std::vector<double> instants;
     bool is_measured = false;  ///< whether the last number is a measure
     bool is_list = false;      ///< of postures, between which there are no windows
 

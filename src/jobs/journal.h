@@ -79,13 +79,13 @@ class Journal final : public EvaluationMemory {
   const std::size_t parameters_;  ///< number of parameters
   const Eigen::Index tuned_;      ///< number of tuned parameters
   const std::map<const CompiledSystem*, int> systems_;
-  const std::vector<Eigen::Index>
-      extremes_;  ///< number of extreme values of an evaluation, by system
+  /// number of extreme values of an evaluation, by system
+  const std::vector<Eigen::Index> extremes_;
   int file_ = -1;
   std::size_t resumed_ = 0;
   std::vector<std::string> notes_;
-  std::vector<Damage>
-      damages_;  ///< in the order of the lines, except for lines that a later line contradicts
+  /// in the order of the lines, except for lines that a later line contradicts
+  std::vector<Damage> damages_;
   mutable std::mutex mutex_;  // guards all members below
   std::unordered_multimap<std::size_t, Line> lines_;
   std::int64_t end_ = 0;  ///< size of the file

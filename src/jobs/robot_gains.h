@@ -14,8 +14,8 @@ struct RobotGains {
   std::string name_space;  ///< namespace of the gains on the robot, without a slash at either end
   std::string controller;  ///< name of the controller in the study
   std::string joint;       ///< the joint that the controller drives
-  bool loses_weight = false;  ///< whether the controller also compensates gravity in the study,
-                              ///< which these gains do not
+  /// whether the controller also compensates gravity in the study, which these gains do not
+  bool loses_weight = false;
   double p = 0.0, i = 0.0, d = 0.0;
   double i_clamp = 0.0;     ///< largest effort of the integral term [N m or N]
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i

@@ -20,9 +20,9 @@ namespace codesign {
 /// A limit of the URDF that a joint exceeds during a run.
 struct LimitCrossing {
   std::string joint;
-  std::string limit;   ///< lower, upper, velocity or effort
-  double bound = 0.0;  ///< the limit in the file; velocity and effort: a magnitude [rad or m, rad/s
-                       ///< or m/s, N m or N]
+  std::string limit;  ///< lower, upper, velocity or effort
+  /// the limit in the file; velocity and effort: a magnitude [rad or m, rad/s or m/s, N m or N]
+  double bound = 0.0;
   double worst = 0.0;  ///< the value farthest beyond the limit
   double time = 0.0;   ///< time of the first sample, or step of a stop, beyond the limit [s]
 };

@@ -43,8 +43,8 @@ class NeverSimulated : public std::runtime_error {
 struct FinishedJob {
   std::string folder;
   Problem problem;  ///< loaded from tuned.urdf and job_study.yaml, at the design of result.json
-  std::vector<double> parameters;  ///< all named parameters of that design, in the order of
-                                   ///< Problem::all_parameters()
+  /// all named parameters of that design, in the order of Problem::all_parameters()
+  std::vector<double> parameters;
   std::vector<std::string> tuned;  ///< names of the parameters that the job has tuned
   double objective = 0.0;          ///< from result.json
 };

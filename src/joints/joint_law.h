@@ -74,24 +74,25 @@ struct BearingLaw {
 struct JointLaw {
   const char* of_joints;  ///< value of `<joint type>`; null: no joint of the tree has this type
   const char* of_loops;   ///< value of `<loop type>`; null: no loop has it
-  JointType type;    ///< kOther: nothing but this row depends on it; such a joint is a loop, or
-                     ///< arises by folding
-  int rows;          ///< number of constraint rows
-  ForceRows force;   ///< the force components that the first rows stand for
-  bool torque_rows;  ///< whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as
-                     ///< far as there are rows
-  bool in_forest =
-      false;  ///< whether its coordinates are scalars, which hold in all positions; theory (56)
+  /// kOther: nothing but this row depends on it; such a joint is a loop, or arises by folding
+  JointType type;
+  int rows;         ///< number of constraint rows
+  ForceRows force;  ///< the force components that the first rows stand for
+  /// whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are
+  /// rows
+  bool torque_rows;
+  /// whether its coordinates are scalars, which hold in all positions; theory (56)
+  bool in_forest = false;
   Law<PairRowsFunction> add_rows{};
   BearingLaw bearing{};
-  int slip_coordinates = 0;  ///< number of slip coordinates of isotropic friction (13a); 0: each
-                             ///< coordinate has its own friction, (13)
-  int slips_of_the_point =
-      0;  ///< how many of them, from the first on, make up the reported speed and friction
-  const JointLaw* in_plane =
-      nullptr;  ///< the row of a loop of this type that is held in the plane of its motion only,
-                ///< theory (23c); null: there is none. It has y'' normal to the plane if the loop
-                ///< slides along z'', else z''
+  /// number of slip coordinates of isotropic friction (13a); 0: each coordinate has its own
+  /// friction, (13)
+  int slip_coordinates = 0;
+  /// how many of them, from the first on, make up the reported speed and friction
+  int slips_of_the_point = 0;
+  /// the row of a loop of this type that is held in the plane of its motion only, theory (23c);
+  /// null: there is none. It has y'' normal to the plane if the loop slides along z'', else z''
+  const JointLaw* in_plane = nullptr;
 
   /// How many of the first rows are components of F''.
   constexpr int force_rows() const {

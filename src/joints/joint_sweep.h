@@ -21,8 +21,8 @@ struct AxesMotion {
   Vector3<T> velocity = Vector3<T>::Zero(), omega = Vector3<T>::Zero(),
              alpha = Vector3<T>::Zero();         ///< of the centre [m/s]; [rad/s]
   Vector3<T> acceleration = Vector3<T>::Zero();  ///< of the centre, less gravity [m/s^2]
-  Matrix3<T> N = Matrix3<T>::Zero();  ///< alpha~ + omega~ omega~: N s is the acceleration of a
-                                      ///< point s relative to the centre
+  /// alpha~ + omega~ omega~: N s is the acceleration of a point s relative to the centre
+  Matrix3<T> N = Matrix3<T>::Zero();
 
   /// Sets N from omega and alpha.
   void update_turning() {
@@ -56,9 +56,9 @@ Wrench<T> inertia_wrench(const T& mass, const Matrix3<T>& J, const AxesMotion<T>
 template <class T>
 struct JointPose {
   static constexpr std::size_t kMostTurns = 2;
-  std::array<Matrix3<T>, kMostTurns> turn;  ///< per turn, in order: the axes after it in those
-                                            ///< before it; the last one includes R_ij
-  Matrix3<T> R = Matrix3<T>::Identity();    ///< axes of body j in those of body i
+  /// per turn, in order: the axes after it in those before it; the last one includes R_ij
+  std::array<Matrix3<T>, kMostTurns> turn;
+  Matrix3<T> R = Matrix3<T>::Identity();  ///< axes of body j in those of body i
 };
 
 /// exp(angle u~) R for a unit vector u. Three constant matrices, so that only their combination

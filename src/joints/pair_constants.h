@@ -16,11 +16,12 @@ namespace codesign {
 template <class T>
 struct CoordinateConstants {
   enum class Kind {
-    kNone,  ///< not available: the joint has no scalar position, or the folded chain no closed form
-            ///< for it
+    /// not available: the joint has no scalar position, or the folded chain no closed form for it
+    kNone,
     kTurn,  ///< turn about the common z axis: sign * atan2(y_i . x_j, x_i . x_j)
-    kSlide,  ///< sign * a . d, with a fixed in body i or j and d from the joint point of i to the
-             ///< joint point of j
+    /// sign * a . d, with a fixed in body i or j and d from the joint point of i to the joint point
+    /// of j
+    kSlide,
     kAngle,  ///< sign * atan2(a_i . b_j, c_i . d_j)
     kSine,   ///< offset + sign * asin(a_i . b_j)
     kSpin    ///< only a rate: a . (omega_j - omega_i), with a fixed in the ground
@@ -37,8 +38,8 @@ struct CoordinateConstants {
 /// velocity is arm[k] times the rate of coordinates[k].
 template <class T>
 struct SlipConstants {
-  std::vector<CoordinateConstants<T>>
-      coordinates;  ///< empty, two (table) or three (planar, spherical)
+  /// empty, two (table) or three (planar, spherical)
+  std::vector<CoordinateConstants<T>> coordinates;
   std::array<T, 3> arm{T(1.0), T(1.0), T(1.0)};      ///< 1 for a slide, r_e [m] for a turn
   std::array<T, 3> viscous{T(0.0), T(0.0), T(0.0)};  ///< viscous load per rate [N s/m or N m s/rad]
 };
@@ -60,8 +61,8 @@ struct JointDynamicsConstants {
       effort{0.0};        ///< valid only if LimitDescription::bounds_position() or bounds_effort()
   StopConstants<T> stop;  ///< valid if the study enforces the joint's limits
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
-  Vector3<T> rotor_axis =
-      Vector3<T>::Zero();           ///< unit vector in the axes of the body that carries the rotor
+  /// unit vector in the axes of the body that carries the rotor
+  Vector3<T> rotor_axis = Vector3<T>::Zero();
   GearConstants<T> gear;            ///< valid if the actuator has ActuatorDescription::gear
   ElasticGearConstants<T> elastic;  ///< likewise, ActuatorDescription::elastic
 };
@@ -85,13 +86,13 @@ struct PairConstants {
   T distance{0.0};                ///< kDistance: the length [m]
   FrictionConstants<T> friction;  ///< valid if Pair::friction_joint is set
   SlipConstants<T> slip;          ///< isotropic friction; see slips_isotropically()
-  std::vector<CoordinateConstants<T>>
-      coordinates;  ///< one per chain element; a single cylindrical loop has two: turn, slide
+  /// one per chain element; a single cylindrical loop has two: turn, slide
+  std::vector<CoordinateConstants<T>> coordinates;
   std::vector<JointDynamicsConstants<T>> dynamics;  ///< one per coordinate
-  std::vector<JointStep<T>>
-      steps;  ///< the motion of body j relative to body i; empty if it has no such coordinates
-  Matrix3<T> R_ij =
-      Matrix3<T>::Identity();  ///< axes of body j in those of body i, at zero position
+  /// the motion of body j relative to body i; empty if it has no such coordinates
+  std::vector<JointStep<T>> steps;
+  /// axes of body j in those of body i, at zero position
+  Matrix3<T> R_ij = Matrix3<T>::Identity();
 
   /// Sets everything to what a new object holds, but keeps the memory of the vectors.
   void clear() {

@@ -11,8 +11,8 @@ namespace codesign {
 /// deviations[i]; doc/theory.md (24h).
 struct ConditionalNormal {
   Eigen::MatrixXd slopes;  ///< d x d, zero on the diagonal and above
-  Eigen::VectorXd
-      deviations;  ///< zero if the numbers before it determine the number, or the variance is zero
+  /// zero if the numbers before it determine the number, or the variance is zero
+  Eigen::VectorXd deviations;
 };
 
 /// From the covariance, by its factors L D L^T. A pivot below 1e-12 of its variance counts as zero.

@@ -12,8 +12,8 @@ namespace codesign {
 
 /// The largest difference between the entries of a Jacobian J and of its reference R.
 struct JacobianDifference {
-  double largest =
-      0.0;  ///< |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
+  /// |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
+  double largest = 0.0;
   Eigen::Index row = -1,
                column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
 };
@@ -57,10 +57,9 @@ Eigen::MatrixXd complex_step_jacobian(const Function& f, const Eigen::VectorXd& 
 /// A derivative with an estimate of its absolute error.
 struct RiddersDerivative {
   double value = 0.0;
-  double error =
-      std::numeric_limits<double>::infinity();  ///< the change by the last extrapolation, or the
-                                                ///< difference of the last quotient if these do
-                                                ///< not approach it; infinite if f was never finite
+  /// the change by the last extrapolation, or the difference of the last quotient if these do not
+  /// approach it; infinite if f was never finite
+  double error = std::numeric_limits<double>::infinity();
 };
 
 /// Derivative of f at x by central differences extrapolated to step zero (Ridders, doc/theory.md

@@ -51,10 +51,10 @@ template <class T>
 struct Constants {
   std::vector<BodyConstants<T>> bodies;
   std::vector<PairConstants<T>> pairs;
-  std::vector<LinkConstants<T>>
-      links;  ///< per link; valid for links that belong to a body or the ground
-  std::vector<LinkConstants<T>> joint_frames;  ///< per joint: its frame, fixed in the child (of a
-                                               ///< loop: the successor); valid likewise
+  /// per link; valid for links that belong to a body or the ground
+  std::vector<LinkConstants<T>> links;
+  /// per joint: its frame, fixed in the child (of a loop: the successor); valid likewise
+  std::vector<LinkConstants<T>> joint_frames;
   std::vector<SpringDamperConstants<T>> springs;
   std::vector<CouplingConstants<T>> couplings;
 };
@@ -92,8 +92,8 @@ inline std::vector<double> default_values(const RobotDescription& robot) {
 
 /// Mass properties that no solid body can have.
 struct MassFault {
-  std::string code;     ///< negative_mass, inertia_not_positive, triangle_inequality, or empty if
-                        ///< there is no fault
+  /// negative_mass, inertia_not_positive, triangle_inequality, or empty if there is no fault
+  std::string code;
   std::string message;  ///< for example "the inertia breaks the triangle inequality"
   std::string value;    ///< the offending numbers
 };

@@ -26,12 +26,12 @@ struct CouplingTerm {
 struct Coupling {
   std::string name;       ///< of the joint with the `<mimic>`, or of the `<coupling>`
   bool is_mimic = false;  ///< from `<mimic>`, else from URDF+ `<coupling>`, or a drive
-  bool is_drive =
-      false;        ///< made by drive_of(): the row prescribes the motion of one joint coordinate
-  int motion = -1;  ///< of a drive: index into Study::motion, which gives the motion; -1: it comes
-                    ///< from outside
-  std::vector<CouplingTerm>
-      terms;             ///< first the coordinate that follows the others, with coefficient 1
+  /// made by drive_of(): the row prescribes the motion of one joint coordinate
+  bool is_drive = false;
+  /// of a drive: index into Study::motion, which gives the motion; -1: it comes from outside
+  int motion = -1;
+  /// first the coordinate that follows the others, with coefficient 1
+  std::vector<CouplingTerm> terms;
   Quantity offset{0.0};  ///< [rad or m]
   SourceLocation where;
 
@@ -62,14 +62,15 @@ Coupling drive_of(const RobotDescription& robot, const Topology& topology, int j
 struct DrivenTree {
   struct Node {
     int body = -1;
-    int parent =
-        -1;         ///< index of the parent's node; -1: the ground or, if `pair` is -1, not needed
-    int pair = -1;  ///< the pair between parent and body; -1 for a body of which only the driven
-                    ///< joint's axis is needed
+    /// index of the parent's node; -1: the ground or, if `pair` is -1, not needed
+    int parent = -1;
+    /// the pair between parent and body; -1 for a body of which only the driven joint's axis is
+    /// needed
+    int pair = -1;
     bool slides = false;  ///< the joint is prismatic, else it turns
     bool moved = false;   ///< the driven joint moves this body
-    int controller =
-        -1;  ///< index of the controller that prescribes an acceleration of this joint, or -1
+    /// index of the controller that prescribes an acceleration of this joint, or -1
+    int controller = -1;
     /// The joint has an actuator, whose rotor the parent carries; theory (9a). Set only if
     /// accelerations are prescribed.
     bool rotor = false;

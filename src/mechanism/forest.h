@@ -14,9 +14,9 @@ struct Topology;
 struct Forest {
   std::vector<int> pair_above;  ///< per body: the pair on which it hangs; -1: the body is free
   std::vector<int> body_below;  ///< per pair: the body that hangs on it; -1: the pair is cut
-  std::vector<bool> is_plane;   ///< per pair: a single planar joint, whose three coordinates belong
-                                ///< to one element of its chain
-  std::vector<int> order;       ///< bodies that hang on a pair, parents before children
+  /// per pair: a single planar joint, whose three coordinates belong to one element of its chain
+  std::vector<bool> is_plane;
+  std::vector<int> order;  ///< bodies that hang on a pair, parents before children
 
   bool empty() const { return order.empty(); }
 };

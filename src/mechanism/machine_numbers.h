@@ -37,10 +37,10 @@ void set_machine_numbers(const RobotDescription& robot, const Topology& topology
 
 /// A number that follows the machine, for people.
 struct MachineNumber {
-  std::string joint;   ///< joint or loop
-  std::string number;  ///< `smoothing`, `transition velocity`, of a gear `gear smoothing`, `gear
-                       ///< transition velocity`; of stops `stop stiffness`, `stop dissipation`,
-                       ///< `stop width`
+  std::string joint;  ///< joint or loop
+  /// `smoothing`, `transition velocity`, of a gear `gear smoothing`, `gear transition velocity`; of
+  /// stops `stop stiffness`, `stop dissipation`, `stop width`
+  std::string number;
   std::string unit;
   double value = 0.0;
 };

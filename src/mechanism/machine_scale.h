@@ -22,19 +22,21 @@ struct CarriedMass {
 /// loop what hangs on its successor, or on its predecessor if the successor is the root.
 template <class T>
 struct JointScale {
-  T mass{0.0};     ///< m [kg]; of the whole machine if nothing with mass hangs on the joint
-  T inertia{0.0};  ///< M along the coordinate, without rotors: m of a slide [kg], else about the
-                   ///< axis [kg m^2]; zero for joints without a coordinate of their own
+  T mass{0.0};  ///< m [kg]; of the whole machine if nothing with mass hangs on the joint
+  /// M along the coordinate, without rotors: m of a slide [kg], else about the axis [kg m^2]; zero
+  /// for joints without a coordinate of their own
+  T inertia{0.0};
 };
 
 /// The scales of a machine at one design.
 template <class T>
 struct MachineScale {
-  std::vector<JointScale<T>> joints;  ///< of RobotDescription::joints; behind an elastic gear that
-                                      ///< of the motor is that of its joint
-  JointScale<T> all;                  ///< the whole machine, M about the root's origin
-  T acceleration{0.0};                ///< a [m/s^2]: gravity; without it the radius of gyration of
-                                      ///< the machine about the root's origin over T^2
+  /// of RobotDescription::joints; behind an elastic gear that of the motor is that of its joint
+  std::vector<JointScale<T>> joints;
+  JointScale<T> all;  ///< the whole machine, M about the root's origin
+  /// a [m/s^2]: gravity; without it the radius of gyration of the machine about the root's origin
+  /// over T^2
+  T acceleration{0.0};
 
   std::vector<CarriedMass<T>> carried;    ///< workspace: per link
   std::vector<std::size_t> from_leaves;   ///< workspace: joints of the tree, the last ones first

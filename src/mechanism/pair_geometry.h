@@ -22,8 +22,8 @@ struct ChainGeometry {
   static constexpr std::size_t kFew = 6;
   Pose<T> X_ij;                       ///< pose of the base link of body j
   ShortVector<Pose<T>, kFew> frames;  ///< per element: its joint frame
-  ShortVector<Vector3<T>, kFew>
-      axes;  ///< per element: its unit axis, with URDF's sign also for reversed elements
+  /// per element: its unit axis, with URDF's sign also for reversed elements
+  ShortVector<Vector3<T>, kFew> axes;
 };
 
 /// Multiplies the fixed offsets along the chain.

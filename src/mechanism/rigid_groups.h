@@ -12,8 +12,8 @@ namespace codesign {
 /// Groups of links that are joined by fixed joints.
 struct RigidGroups {
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int>
-      link_base;  ///< per link: the base link of its group, which is the nearest to the root
+  /// per link: the base link of its group, which is the nearest to the root
+  std::vector<int> link_base;
 
   explicit RigidGroups(const RobotDescription& robot);
 };

@@ -59,8 +59,8 @@ struct Topology {
   std::vector<int> link_body;          ///< per link: body index, kGround or kMassless
   std::vector<int> link_base;          ///< per link: base link of its rigid group
   std::vector<int> link_parent_joint;  ///< per link: the tree joint above it, -1 for the root
-  std::vector<int> joint_pair;  ///< per joint: its pair; -1 if it is fixed inside a body or moves
-                                ///< only massless links
+  /// per joint: its pair; -1 if it is fixed inside a body or moves only massless links
+  std::vector<int> joint_pair;
   std::vector<Coupling> couplings;
 };
 

@@ -11,10 +11,10 @@ namespace codesign {
 
 /// Mechanical energy [J].
 struct Energy {
-  double kinetic = 0.0;    ///< of bodies and rotors
-  double potential = 0.0;  ///< gravity (zero at the root's origin), torsion springs,
-                           ///< spring-dampers, stops, elastic gears; without bristles of friction
-                           ///< laws
+  double kinetic = 0.0;  ///< of bodies and rotors
+  /// gravity (zero at the root's origin), torsion springs, spring-dampers, stops, elastic gears;
+  /// without bristles of friction laws
+  double potential = 0.0;
 
   double total() const { return kinetic + potential; }
 };

@@ -37,8 +37,8 @@ class Observer {
   struct JointSource {
     int joint = -1, pair = -1,
         element = -1;  ///< pair is -1 for a joint below which nothing has mass
-    int mimicked =
-        -1;  ///< for a joint without a pair: index in joints_ of the joint that it mimics, or -1
+    /// for a joint without a pair: index in joints_ of the joint that it mimics, or -1
+    int mimicked = -1;
   };
   /// Element of a FrictionSource: isotropic friction of the whole pair.
   static constexpr int kContact = -2;

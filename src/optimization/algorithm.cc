@@ -12,8 +12,8 @@ namespace codesign {
 namespace {
 
 struct Algorithm {
-  std::optional<nlopt::algorithm>
-      id;  ///< std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
+  /// std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
+  std::optional<nlopt::algorithm> id;
   bool takes_constraints, takes_equalities;
 };
 

@@ -20,11 +20,13 @@ void spread(const SmoothProgram::Value& value, const Scaling& scaling, double* b
 
 /// The optimality conditions of a design in the smooth form of the problem, doc/theory.md (24j).
 struct Optimality {
-  double slope = 0.0;      ///< residual of the conditions, in the unit of psi; 0 at an optimum
-  Eigen::VectorXd bounds;  ///< multipliers of the bounds of the scaled parameters: positive at the
-                           ///< lower one, negative at the upper one
-  Eigen::MatrixXd active;  ///< gradients by the scaled parameters of the rows with a multiplier and
-                           ///< of all equalities, one per column
+  double slope = 0.0;  ///< residual of the conditions, in the unit of psi; 0 at an optimum
+  /// multipliers of the bounds of the scaled parameters: positive at the lower one, negative at the
+  /// upper one
+  Eigen::VectorXd bounds;
+  /// gradients by the scaled parameters of the rows with a multiplier and of all equalities, one
+  /// per column
+  Eigen::MatrixXd active;
   int factorizations = 0;  ///< of matrices of the variables, as a measure of the work
 };
 

@@ -33,9 +33,9 @@ class LeastSquaresModel {
 
 struct LevenbergMarquardtOptions {
   int max_evaluations = 200;
-  double relative_tolerance = 1e-6;  ///< of psi: the search ends when both predicted decrease and
-                                     ///< gain of a step are smaller
-  double largest_first_step = 1.0;   ///< the first step changes no variable by more
+  /// of psi: the search ends when both predicted decrease and gain of a step are smaller
+  double relative_tolerance = 1e-6;
+  double largest_first_step = 1.0;  ///< the first step changes no variable by more
 };
 
 enum class LevenbergMarquardtEnd {

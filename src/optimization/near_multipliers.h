@@ -14,8 +14,8 @@ namespace codesign {
 /// its distance d from being active.
 struct Holder {
   Eigen::VectorXd leading;  ///< a by the first variables, which most rows read; empty: zero
-  std::vector<std::pair<Eigen::Index, double>>
-      others;             ///< the other entries of a that are not zero, by variable, ascending
+  /// the other entries of a that are not zero, by variable, ascending
+  std::vector<std::pair<Eigen::Index, double>> others;
   double distance = 0.0;  ///< d, 0 or more
   bool any_sign = false;  ///< an equality, d = 0: the multiplier may be negative
   bool is_bound = false;  ///< of the variable others[0], with the entry 1 or -1
@@ -73,8 +73,8 @@ class FarRows {
   const std::vector<std::size_t> far_;
   const Eigen::VectorXd distances_;
   Eigen::MatrixXd leading_;  ///< leading entries of w, one column per row
-  std::vector<std::vector<Eigen::Index>>
-      groups_;  ///< rows that read the same variables, without bounds
+  /// rows that read the same variables, without bounds
+  std::vector<std::vector<Eigen::Index>> groups_;
 };
 
 /// The multipliers c of rows and bounds that are near. With the rows M of a metric they minimize

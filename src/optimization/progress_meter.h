@@ -20,15 +20,15 @@ struct Progress {
   /// validating.
   std::int64_t done = 0, of = 0;
   std::int64_t starts = 0;  ///< number of searches; 0: a single search from the study's start
-  std::int64_t runs =
-      0;  ///< finished runs at one design, including runs remembered from an earlier process
+  /// finished runs at one design, including runs remembered from an earlier process
+  std::int64_t runs = 0;
   std::int64_t remembered = 0;  ///< runs that were remembered instead of computed
-  double runs_per_second =
-      0.0;  ///< rate of computed runs since the stage began; 0 before the first one
+  /// rate of computed runs since the stage began; 0 before the first one
+  double runs_per_second = 0.0;
   /// Time until the end of the stage [s]; empty before the first run has been computed.
   std::optional<double> seconds_left;
-  bool is_bound = false;  ///< whether seconds_left is an upper limit, since a search may end before
-                          ///< its last evaluation
+  /// whether seconds_left is an upper limit, since a search may end before its last evaluation
+  bool is_bound = false;
 };
 
 /// Called from any thread, by one thread at a time.

@@ -15,13 +15,13 @@ namespace codesign {
 /// Optional connections of a job, besides its problem; each may be empty.
 struct SearchHooks {
   TrialObserver trial;  ///< as in optimize()
-  ProgressObserver progress =
-      nullptr;  ///< called about once a second, also while screening and validating
-  std::shared_ptr<EvaluationMemory> memory;  ///< has the evaluations of an earlier process, and
-                                             ///< keeps the evaluations of this process
-  Dispatcher* ranks = nullptr;               ///< the processes of the job, as in require_engine()
-  ProgressMeter* meter =
-      nullptr;  ///< meter of a caller that polls the progress; its observer replaces `progress`
+  /// called about once a second, also while screening and validating
+  ProgressObserver progress = nullptr;
+  /// has the evaluations of an earlier process, and keeps the evaluations of this process
+  std::shared_ptr<EvaluationMemory> memory;
+  Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
+  /// meter of a caller that polls the progress; its observer replaces `progress`
+  ProgressMeter* meter = nullptr;
 };
 
 /// The records for the engine of a job: its memory, and the count of runs for the meter, which must
@@ -86,8 +86,8 @@ class SharedObserver {
   const TrialObserver& observer_;
   std::mutex mutex_;
   int evaluations_ = 0, iterations_ = 0;
-  std::pair<double, double>
-      best_;  ///< violation of the constraints and objective of the best point
+  /// violation of the constraints and objective of the best point
+  std::pair<double, double> best_;
   bool has_best_ = false, stopped_ = false;
 };
 

@@ -35,8 +35,8 @@ struct ProblemContents {
   std::vector<SourceText> overlays;
   SourceText study_text;
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<std::shared_ptr<const CompiledSystem>>
-      variants;  ///< the systems of variant_of(); empty if there is only the study's own
+  /// the systems of variant_of(); empty if there is only the study's own
+  std::vector<std::shared_ptr<const CompiledSystem>> variants;
   double setup_seconds = 0.0;  ///< processor time of reading and compiling [s]
   Warnings warnings;
   std::vector<LoadedTrajectory> trajectories;  ///< in the order in which the study names them

@@ -19,8 +19,8 @@ namespace codesign {
 struct JointSamples {
   std::string joint;
   std::vector<double> position, velocity, effort;
-  std::optional<FittedNumber> start =
-      std::nullopt;            ///< position at the first time, if velocities are to be integrated
+  /// position at the first time, if velocities are to be integrated
+  std::optional<FittedNumber> start = std::nullopt;
   bool is_prescribed = false;  ///< not recorded, but computed from the study's `motion`
 
   std::vector<double>& of(MeasuredQuantity quantity) {
@@ -38,10 +38,10 @@ struct JointSamples {
 struct JointRecording {
   std::string file;   ///< the path that was read
   std::string topic;  ///< topic in a bag; empty for a table
-  std::vector<double>
-      times;  ///< [s], from the column of a table, or counted from the begin of the bag
-  std::vector<std::size_t>
-      places;  ///< one per time: the line of the file, or the number of the topic's message, from 1
+  /// [s], from the column of a table, or counted from the begin of the bag
+  std::vector<double> times;
+  /// one per time: the line of the file, or the number of the topic's message, from 1
+  std::vector<std::size_t> places;
   std::vector<JointSamples> joints;
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
   std::string element;    ///< the entry of the study, for messages: `identify.data[0]`

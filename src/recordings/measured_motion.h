@@ -15,8 +15,9 @@ namespace codesign {
 struct UniformTimes {
   double start = 0.0, step = 0.0;  ///< [s]
   Eigen::Index count = 0;
-  bool exact = false;  ///< whether no interpolation is needed: no sample is missing, and all lie
-                       ///< within 1e-3 steps of the uniform times
+  /// whether no interpolation is needed: no sample is missing, and all lie within 1e-3 steps of the
+  /// uniform times
+  bool exact = false;
 
   double rate() const { return 1.0 / step; }
   double at(Eigen::Index k) const { return start + static_cast<double>(k) * step; }
@@ -29,8 +30,9 @@ UniformTimes uniform_times(const std::vector<double>& times);
 /// How values between samples are interpolated; doc/theory.md (30).
 enum class Resampling {
   kLinear,  ///< for efforts, which may jump: a cubic would overshoot at a jump
-  kCubic    ///< for smooth motion, by cubics with slopes of the parabola through three neighbours:
-            ///< linear pieces would have no acceleration
+  /// for smooth motion, by cubics with slopes of the parabola through three neighbours: linear
+  /// pieces would have no acceleration
+  kCubic
 };
 
 /// Values at the uniform times. @param times ascending, at least three. @param values one per time
@@ -56,8 +58,8 @@ struct JointMotion {
       acceleration;                ///< empty if the recording does not determine them
   Eigen::VectorXd effort;          ///< as recorded, not filtered; empty if not recorded
   bool velocity_measured = false;  ///< false: the velocity is the derivative of the position
-  bool position_measured =
-      true;  ///< false: the position is the integral of the velocity from JointSamples::start
+  /// false: the position is the integral of the velocity from JointSamples::start
+  bool position_measured = true;
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).

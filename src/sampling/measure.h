@@ -11,8 +11,8 @@ namespace codesign {
 /// A measure M of several values psi_i.
 struct Measured {
   double value = 0.0;  ///< M
-  Eigen::VectorXd
-      by_value;  ///< dM/dpsi_i; zero exactly where psi_i does not count, and the sum is 1
+  /// dM/dpsi_i; zero exactly where psi_i does not count, and the sum is 1
+  Eigen::VectorXd by_value;
   /// kWorst: the largest value. kCvar: the value at risk, the smallest psi_i that is exceeded with
   /// a probability of at most 1 - level.
   double threshold = std::numeric_limits<double>::quiet_NaN();

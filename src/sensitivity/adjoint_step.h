@@ -101,8 +101,8 @@ class AdjointStep {
   CompiledEquations<double> equations_;
   MatrixWeights weights_;
   VectorX<double> adjoint_, start_adjoint_, stage_adjoint_, sum_adjoint_, z_, direction_;
-  VectorX<double>
-      time_weights_;  ///< of the entries of G_t; one per row of G, then one for the integrand's row
+  /// of the entries of G_t; one per row of G, then one for the integrand's row
+  VectorX<double> time_weights_;
   VectorX<double> mu_;         ///< multipliers of the rows of G, then of the integrand's row
   VectorX<double> no_errors_;  ///< the weights of Phi or Phi_q v where the other one is reversed
   std::vector<VectorX<double>> increment_adjoints_;

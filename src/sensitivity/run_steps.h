@@ -16,9 +16,10 @@ struct Study;
 struct RunSteps {
   enum class Method : std::uint8_t { kOwn, kDopri5, kRodas5P, kRodas4P2 };
   Method method = Method::kOwn;  ///< kOwn: the steps that the study chooses
-  bool is_second = false;        ///< ten times the tolerances, and shorter longest steps: what the
-                                 ///< steps themselves cost shows between both sets
-  std::int32_t most = 0;         ///< steps, after which the run fails
+  /// ten times the tolerances, and shorter longest steps: what the steps themselves cost shows
+  /// between both sets
+  bool is_second = false;
+  std::int32_t most = 0;  ///< steps, after which the run fails
 };
 
 inline bool operator<(const RunSteps& a, const RunSteps& b) {

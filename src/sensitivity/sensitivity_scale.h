@@ -56,8 +56,8 @@ class SensitivityScale {
 
   Array q_, s_;  ///< squares of the largest sizes so far
   Size v_, psi_;
-  Array per_value_, per_range_;  ///< squares of what a direction is in units of the parameters'
-                                 ///< values and ranges
+  /// squares of what a direction is in units of the parameters' values and ranges
+  Array per_value_, per_range_;
   double q_square_ = 0.0, v_square_ = 0.0, s_square_ = 0.0;  ///< of the motion itself
   double absolute_ = 0.0;               ///< an error over the range that does not count
   double time_ = 0.0, duration_ = 0.0;  ///< of the last step's end, and of the study [s]

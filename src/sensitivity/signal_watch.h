@@ -81,8 +81,8 @@ class SignalWatch {
   struct Curve {
     bool reads_rates = false;  ///< whether the signal depends on accelerations or multipliers
     std::size_t next = 0;      ///< the next instant
-    double end_slope =
-        0.0;  ///< slope at the end of the previous step, if that was inside the interval; else 0
+    /// slope at the end of the previous step, if that was inside the interval; else 0
+    double end_slope = 0.0;
     double end_value = 0.0;  ///< just before the last guard that ended a step
     BandStays band;          ///< only of signals with a band, as `last`
     Sample last;             ///< the last point that was compared with the band
@@ -108,9 +108,9 @@ class SignalWatch {
   const CompiledSystem& system_;
   const WatchLayout layout_;
   ControlClock clock_;
-  bool begins_at_jump_ = false,
-       ends_at_jump_ = false;  ///< whether sampled controllers act, or formulas switch, at the
-                               ///< begin and at the end of the last step
+  /// whether sampled controllers act, or formulas switch, at the begin and at the end of the last
+  /// step
+  bool begins_at_jump_ = false, ends_at_jump_ = false;
   Integrator* integrator_ = nullptr;
   Differentiate differentiate_;
   std::vector<Curve> curves_;

@@ -58,8 +58,8 @@ class StepPath {
   std::size_t most_;
   std::vector<double> sizes_;  ///< sizes of all steps [s]
   std::vector<const RosenbrockTableau*> tableaus_;
-  std::vector<Kept> kept_;  ///< the stored points, ascending, in the first `count_` entries; the
-                            ///< others are spare memory
+  /// the stored points, ascending, in the first `count_` entries; the others are spare memory
+  std::vector<Kept> kept_;
   std::size_t count_ = 0;
   int stride_ = 1;  ///< every stride-th point of the integration is stored
 };

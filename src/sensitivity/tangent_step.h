@@ -178,11 +178,11 @@ class TangentStep {
   TangentEquations<N> equations_;
   State<double> projected_;
   Directions<N> y_, stage_y_, residual_, rows_, errors_, rates_, estimate_;
-  Directions<N>
-      previous_y_;  ///< y_ at the start of the last accepted step; only if keeps_previous_
+  /// y_ at the start of the last accepted step; only if keeps_previous_
+  Directions<N> previous_y_;
   bool keeps_previous_ = false;
-  bool has_changes_ =
-      false;  ///< whether the changes of the matrices are those with which the next step begins
+  /// whether the changes of the matrices are those with which the next step begins
+  bool has_changes_ = false;
   std::array<VectorX<Lanes<N>>, 2> objective_residuals_;  ///< per ObjectivePart
   ExtensionWorkspace<Lanes<N>> extension_;
   VectorX<Lanes<N>> guards_, right_;

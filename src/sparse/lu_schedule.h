@@ -76,10 +76,11 @@ class LuSchedule {
   std::vector<int> column_;  ///< of each entry of the factors
   std::vector<int> source_slot_;  ///< per entry of A: the entry of the factors that it initializes
   std::vector<double> source_scale_;  ///< per entry of A: 1 / scale of its row
-  std::vector<int> target_;  ///< the entry that each product of the elimination is subtracted from,
-                             ///< in order; empty if there are too many
-  std::vector<int> entry_of_;  ///< used if target_ is empty: per column, the entry of the row that
-                               ///< is being eliminated
+  /// the entry that each product of the elimination is subtracted from, in order; empty if there
+  /// are too many
+  std::vector<int> target_;
+  /// used if target_ is empty: per column, the entry of the row that is being eliminated
+  std::vector<int> entry_of_;
   std::vector<int> multiplier_;  ///< the entries of L
   std::vector<double> factors_;  ///< entries of L and U, with inverse pivots
   mutable LineVector work_;

@@ -34,8 +34,8 @@ struct SparseLu::Implementation {
   };
 
   std::vector<int> starts, rows;
-  std::vector<Kept>
-      schedules;  ///< the last one is in use; those before the last `chosen` ones were reset
+  /// the last one is in use; those before the last `chosen` ones were reset
+  std::vector<Kept> schedules;
   std::size_t chosen = 0;  ///< since the last reset_pivots(), at most kMostSchedules
   std::int64_t full_factorizations = 0;
 

@@ -13,8 +13,8 @@ namespace codesign {
 /// The pattern of a sparse matrix in compressed-row form; column indices ascend within each row.
 struct Sparsity {
   int rows = 0, columns = 0;
-  std::vector<int> row_start, column_index;  ///< index of the first nonzero of each row (rows + 1
-                                             ///< of them); column of each nonzero
+  /// index of the first nonzero of each row (rows + 1 of them); column of each nonzero
+  std::vector<int> row_start, column_index;
 
   int nonzeros() const { return static_cast<int>(column_index.size()); }
   int first(int row) const { return row_start[to_index(row)]; }

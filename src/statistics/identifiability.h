@@ -11,8 +11,8 @@ namespace codesign {
 /// Jacobian J; doc/theory.md (32).
 struct Identifiability {
   int rank = 0;
-  Eigen::VectorXd singular_values;  ///< of J with columns scaled to length one (columns of zeros
-                                    ///< stay), descending; p entries
+  /// of J with columns scaled to length one (columns of zeros stay), descending; p entries
+  Eigen::VectorXd singular_values;
   /// p - rank parameters whose effect the other parameters can reproduce: for each other parameter
   /// i, the data determine only the sum x_i + sum_d C_id x_d.
   std::vector<int> dependent;

@@ -17,13 +17,14 @@ struct ParameterCovariance {
   /// p x p. A parameter that the data do not determine has an infinite variance, and its
   /// covariances are NaN.
   Eigen::MatrixXd covariance;
-  Eigen::VectorXd below, above;  ///< the interval at the level is [x - below, x + above]; infinite
-                                 ///< where the data do not determine x
+  /// the interval at the level is [x - below, x + above]; infinite where the data do not determine
+  /// x
+  Eigen::VectorXd below, above;
   /// Deviation of combination_of() each parameter with the dependent ones, and its interval; of a
   /// determined parameter its own. Zero for the dependent parameters.
   Eigen::VectorXd combination_deviation, combination_below, combination_above;
-  double residual_variance =
-      0.0;  ///< sum of squares divided by (rows - rank), in squared units of the residuals
+  /// sum of squares divided by (rows - rank), in squared units of the residuals
+  double residual_variance = 0.0;
   double degrees = 0.0;  ///< degrees of freedom of Student's t in the intervals
   int lag = 0;  ///< lag of the kernel, or number of neighbours in a block; 0 for white noise
 
@@ -35,8 +36,9 @@ struct ParameterCovariance {
 /// Jacobian, doc/theory.md (43); they take degrees of freedom.
 struct EliminatedUnknowns {
   Eigen::Index count = 0;
-  SeriesLengths pieces = {};  ///< rows of each piece with unknowns of its own; a piece lies within
-                              ///< one recording. Empty without such unknowns
+  /// rows of each piece with unknowns of its own; a piece lies within one recording. Empty without
+  /// such unknowns
+  SeriesLengths pieces = {};
 };
 
 /// @param residuals at the fit, one row per time and one column per output (joint), N x m; several

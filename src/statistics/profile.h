@@ -13,12 +13,14 @@ using ProfiledCost = std::function<std::optional<double>(double x)>;
 
 /// Where one end of a profile lies.
 enum class ProfileEnd {
-  kFound,      ///< the cost crosses the threshold at the value
-  kBound,      ///< the parameter's bound comes first
-  kUnbounded,  ///< the cost stays below the threshold within 1000 first steps: the data do not
-               ///< bound the parameter
-  kFailed  ///< a fit failed before the threshold was crossed; the value is the farthest value with
-           ///< a successful fit
+  kFound,  ///< the cost crosses the threshold at the value
+  kBound,  ///< the parameter's bound comes first
+  /// the cost stays below the threshold within 1000 first steps: the data do not bound the
+  /// parameter
+  kUnbounded,
+  /// a fit failed before the threshold was crossed; the value is the farthest value with a
+  /// successful fit
+  kFailed
 };
 
 /// The profile to compute.
@@ -26,8 +28,8 @@ struct ProfileProblem {
   double optimum = 0.0;    ///< the fitted value
   double cost = 0.0;       ///< sum of squares at the optimum
   double threshold = 0.0;  ///< allowed excess of the sum of squares, positive: profile_threshold()
-  double step = 0.0;       ///< first step from the optimum, positive, such as the half width of the
-                           ///< linear interval
+  /// first step from the optimum, positive, such as the half width of the linear interval
+  double step = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< bounds of the parameter
   double upper = std::numeric_limits<double>::infinity();
 };

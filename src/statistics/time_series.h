@@ -64,8 +64,8 @@ double empirical_quantile(Eigen::VectorXd values, double fraction);
 /// The test of Ljung and Box whether residuals are white; doc/theory.md (37).
 struct Whiteness {
   double statistic = 0.0;  ///< n (n + 2) sum_k rho_k^2 / (n - k), k = 1 ... lags
-  double probability =
-      1.0;  ///< probability of a statistic as large or larger if the residuals are white
+  /// probability of a statistic as large or larger if the residuals are white
+  double probability = 1.0;
   int lags = 0;
   double first_correlation = 0.0;  ///< rho_1
 };

@@ -20,10 +20,10 @@ struct SharedRow {
 /// pairs and couplings share the reactions in the solution of least norm. make_system() finds them;
 /// without redundancy everything is empty and zero.
 struct ReactionSharing {
-  double compliance =
-      0.0;  ///< epsilon [1/kg] in every row of a joint or coupling, Phi'' - epsilon lambda = 0
-  std::vector<int>
-      pairs;  ///< pairs that share reactions, ascending; they have rows in all coordinates
+  /// epsilon [1/kg] in every row of a joint or coupling, Phi'' - epsilon lambda = 0
+  double compliance = 0.0;
+  /// pairs that share reactions, ascending; they have rows in all coordinates
+  std::vector<int> pairs;
   std::vector<int> couplings;      ///< couplings that share reactions, ascending
   std::vector<SharedRow> dropped;  ///< dropped rows, among the loops and couplings above
 
@@ -43,8 +43,8 @@ struct SharingLayout {
   std::vector<int> bodies;     ///< free bodies of the pairs and couplings that share, ascending
   std::vector<int> body_slot;  ///< per body: its index in `bodies`; -1 if it is not among them
   std::vector<int> row_slot;   ///< per row of Phi: its index among the eta; -1 if it does not share
-  std::vector<int>
-      miss_slot;             ///< per row of Phi: its index among the mu; -1 if it cannot be dropped
+  /// per row of Phi: its index among the mu; -1 if it cannot be dropped
+  std::vector<int> miss_slot;
   int rows = 0, misses = 0;  ///< numbers of eta and of mu
   int first = 0;             ///< column of the first unknown
 

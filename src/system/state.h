@@ -31,31 +31,33 @@ using TurnReference = std::conditional_t<std::is_same_v<T, Traced>, Traced, doub
 /// one row per extra state.
 struct Layout {
   int bodies = 0;
-  int n =
-      0;  ///< number of coordinates: 7 per free body (r, p), and those of the pairs of the forest
-  int m = 0;  ///< number of multipliers: rows of cut pairs, then couplings, then |p| = 1 per free
-              ///< body; then `sharing` and `gears`
+  /// number of coordinates: 7 per free body (r, p), and those of the pairs of the forest
+  int n = 0;
+  /// number of multipliers: rows of cut pairs, then couplings, then |p| = 1 per free body; then
+  /// `sharing` and `gears`
+  int m = 0;
   int couplings = 0;  ///< number of `<mimic>` and `<coupling>`, one row each
-  int sharing = 0;    ///< in m after those: unknowns w, eta, mu of shared reactions; theory (23b),
-                      ///< SharingLayout
-  int gears = 0;      ///< the last ones of m: torques that gears of cut pairs transmit; theory (9b)
-  int states = 0;  ///< number of extra first-order states s: integrals of controllers, then states
-                   ///< of friction laws
-  std::vector<int>
-      pair_row;  ///< first constraint row of each pair; a pair of the forest has no rows
+  /// in m after those: unknowns w, eta, mu of shared reactions; theory (23b), SharingLayout
+  int sharing = 0;
+  int gears = 0;  ///< the last ones of m: torques that gears of cut pairs transmit; theory (9b)
+  /// number of extra first-order states s: integrals of controllers, then states of friction laws
+  int states = 0;
+  /// first constraint row of each pair; a pair of the forest has no rows
+  std::vector<int> pair_row;
 
   Forest forest;  ///< which pairs give coordinates
-  std::vector<int>
-      body_column;  ///< per body: its first coordinate in q; empty if all bodies are free
-  std::vector<int> body_norm_row;  ///< per body: its row |p| = 1, counted from the first such row;
-                                   ///< -1 for a body of the forest; or empty
+  /// per body: its first coordinate in q; empty if all bodies are free
+  std::vector<int> body_column;
+  /// per body: its row |p| = 1, counted from the first such row; -1 for a body of the forest; or
+  /// empty
+  std::vector<int> body_norm_row;
 
-  std::vector<int> turn_slot;  ///< per pair, its first entry of State::turns; one follows for each
-                               ///< element of its chain
-  int drop_slot =
-      0;  ///< first entry of State::turns that is a flag of a row that can be dropped; theory (23)
-  int sign_slot = 0;  ///< first entry of State::turns that is the sign of a body's Euler
-                      ///< parameters, with a forest only
+  /// per pair, its first entry of State::turns; one follows for each element of its chain
+  std::vector<int> turn_slot;
+  /// first entry of State::turns that is a flag of a row that can be dropped; theory (23)
+  int drop_slot = 0;
+  /// first entry of State::turns that is the sign of a body's Euler parameters, with a forest only
+  int sign_slot = 0;
   std::vector<double> initial_turns;  ///< State::turns before a start is assembled
 
   int turn(int pair, int element) const { return turn_slot[to_index(pair)] + element; }

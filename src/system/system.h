@@ -37,16 +37,17 @@ struct JointLoad {
   bool constant_friction = false;  ///< `<dynamics friction>`
   bool gear = false;               ///< losses of gear and motor, theory (9b)
   bool gear_transmits = false;     ///< some of them in proportion to the transmitted torque
-  int gear_unknown = -1;           ///< index of that torque among the unknowns; -1: it follows from
-                                   ///< the wrench that the joint transmits
-  bool passive = false;            ///< damping or a torsion spring
-  bool spring = false;             ///< a torsion spring, which depends on the position
-  int elastic = -1;                ///< index in System::elastic_gears() of a gear that acts here
-  bool is_motor = false;           ///< the coordinate is that of its motor
-  bool stop = false;               ///< `<limit lower upper>` as stops
-  bool saturated = false;          ///< `<limit effort>` bounds the effort of the controllers
-  std::vector<int> controllers;    ///< indices of the controllers that drive this coordinate
-  std::vector<int> given;          ///< indices into Study::loads
+  /// index of that torque among the unknowns; -1: it follows from the wrench that the joint
+  /// transmits
+  int gear_unknown = -1;
+  bool passive = false;          ///< damping or a torsion spring
+  bool spring = false;           ///< a torsion spring, which depends on the position
+  int elastic = -1;              ///< index in System::elastic_gears() of a gear that acts here
+  bool is_motor = false;         ///< the coordinate is that of its motor
+  bool stop = false;             ///< `<limit lower upper>` as stops
+  bool saturated = false;        ///< `<limit effort>` bounds the effort of the controllers
+  std::vector<int> controllers;  ///< indices of the controllers that drive this coordinate
+  std::vector<int> given;        ///< indices into Study::loads
 
   /// Whether the load depends on the position of the coordinate, not on its rate alone.
   bool needs_position() const { return spring || stop; }

@@ -19,11 +19,11 @@ namespace codesign {
 /// where the turns are zero their rates are the angular velocity in the joint frame.
 struct TreeLayout {
   std::vector<int> joint_order;  ///< tree joints, parents before children
-  std::vector<int>
-      offset;    ///< per joint of the description: its first coordinate; meaningless for loops
+  /// per joint of the description: its first coordinate; meaningless for loops
+  std::vector<int> offset;
   int size = 0;  ///< number of coordinates
-  std::vector<std::pair<int, int>> motors;  ///< per JointDescription::motor: its coordinate, and
-                                            ///< that of the joint
+  /// per JointDescription::motor: its coordinate, and that of the joint
+  std::vector<std::pair<int, int>> motors;
 
   explicit TreeLayout(const RobotDescription& robot);
 };

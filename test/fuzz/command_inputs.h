@@ -14,8 +14,8 @@ namespace codesign::fuzz {
 struct Seed {
   std::string name, urdf, study, overlay;
   std::map<std::string, std::string> files{};  ///< recordings that the study names
-  std::vector<std::vector<std::string>>
-      commands{};  ///< commands for this case beside those for all
+  /// commands for this case beside those for all
+  std::vector<std::vector<std::string>> commands{};
 };
 
 /// The shipped cases, their studies cut short so that a run takes milliseconds, and an overlay for

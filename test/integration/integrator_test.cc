@@ -61,8 +61,8 @@ TEST(Integrator, ASumOfSquaresIsNotNegative) {
 struct Calls {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   RepeatableStart start;
-  std::string seen;  ///< how much the first parameter of each begin exceeds the study's, and "s"
-                     ///< for each keep_pivots
+  /// how much the first parameter of each begin exceeds the study's, and "s" for each keep_pivots
+  std::string seen;
   bool fails = false;
 
   Status run(double excess) {

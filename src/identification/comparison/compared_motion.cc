@@ -252,8 +252,8 @@ class MotionComparison {
   const std::function<bool()>& stop_;
   const bool is_simulated_;
   DrivenReplay model_;
-  std::optional<DrivenReplay>
-      measured_;  ///< for a simulated motion, where measured and simulated positions differ
+  /// for a simulated motion, where measured and simulated positions differ
+  std::optional<DrivenReplay> measured_;
 };
 
 /// The begin of each recording in the rows of a series, and their number.

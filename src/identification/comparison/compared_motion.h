@@ -28,11 +28,11 @@ struct ComparedRecording {
 
 /// A joint whose efforts are compared, with its place for drawing them.
 struct ComparedJoint {
-  std::size_t joint = 0, link = 0;  ///< indices in FrameNames: the joint, and its child link, whose
-                                    ///< origin is at the joint
-  Eigen::Vector3d axis =
-      Eigen::Vector3d::UnitX();  ///< joint axis in the frame of the link, of unit length
-  bool is_torque = true;         ///< false: a force
+  /// indices in FrameNames: the joint, and its child link, whose origin is at the joint
+  std::size_t joint = 0, link = 0;
+  /// joint axis in the frame of the link, of unit length
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();
+  bool is_torque = true;  ///< false: a force
 };
 
 /// The measured motion beside the motion of the model, for showing both.
@@ -40,8 +40,8 @@ struct ComparedMotion {
   FrameNames names;                       ///< of all frames
   std::vector<std::size_t> link_parents;  ///< as link_parents() finds them
   std::vector<ComparedJoint> joints;      ///< joints whose efforts were recorded
-  std::vector<ComparedRecording>
-      recordings;  ///< data, then holdout, in the order of FittedSeries::lengths
+  /// data, then holdout, in the order of FittedSeries::lengths
+  std::vector<ComparedRecording> recordings;
 };
 
 /// The motion of all recordings at the identified design, at about `rate` instants per second [Hz],

@@ -18,9 +18,10 @@ class CompiledSystem;
 struct MeasuredJoint {
   std::string name;
   bool with_effort = false;  ///< its effort was measured, too, or is known to be zero
-  double deviation = 1.0;    ///< standard deviation of its measured position [rad or m]; only the
-                             ///< ratios between joints count, theory (28a)
-  SourceLocation where;      ///< where the joint is named, for messages
+  /// standard deviation of its measured position [rad or m]; only the ratios between joints count,
+  /// theory (28a)
+  double deviation = 1.0;
+  SourceLocation where;  ///< where the joint is named, for messages
 };
 
 /// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine
@@ -29,10 +30,11 @@ struct MeasuredJoint {
 /// controllers nor given motions nor an objective.
 struct DrivenSystem {
   std::shared_ptr<const CompiledSystem> system;
-  std::vector<int> drives;   ///< the driven joints as indices in the list of measured joints,
-                             ///< ascending; drive k has row System::drive_row(k)
-  std::vector<int> surplus;  ///< the surplus joints, likewise as indices: their motion follows from
-                             ///< the motion of the drives
+  /// the driven joints as indices in the list of measured joints, ascending; drive k has row
+  /// System::drive_row(k)
+  std::vector<int> drives;
+  /// the surplus joints, likewise as indices: their motion follows from the motion of the drives
+  std::vector<int> surplus;
 };
 
 /// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as in

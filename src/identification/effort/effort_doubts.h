@@ -33,8 +33,8 @@ constexpr double kClearly = 0.2;
 /// recorded column; doc/theory.md (39c).
 struct DriveLineFit {
   double share = 0.0;  ///< explained_share() of the column, at least 0
-  double scale = 0.0;  ///< factor of the computed effort, at least 0; 0 where friction and rotor
-                       ///< explain nearly all
+  /// factor of the computed effort, at least 0; 0 where friction and rotor explain nearly all
+  double scale = 0.0;
 };
 
 /// @param computed, velocity, acceleration of the joint. @param recorded any column at the same
@@ -46,11 +46,11 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
 struct EffortDoubt {
   std::string joint;
   double share = 0.0;  ///< DriveLineFit::share of the effort as recorded
-  std::string
-      mistake;  ///< what would explain it: `with the other sign`; empty if no simple mistake does
-  double mended = 0.0;   ///< share with the mistake mended
-  bool is_unit = false;  ///< whether the mistake is a unit: with one, a fit explains the recording
-                         ///< by wrong numbers
+  /// what would explain it: `with the other sign`; empty if no simple mistake does
+  std::string mistake;
+  double mended = 0.0;  ///< share with the mistake mended
+  /// whether the mistake is a unit: with one, a fit explains the recording by wrong numbers
+  bool is_unit = false;
 };
 
 /// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the

@@ -21,10 +21,11 @@ class MotionProjection;
 /// after recording.
 struct MotionSamples {
   Eigen::MatrixXd position, velocity, acceleration;  ///< [rad or m], per s, per s^2
-  std::vector<int>
-      shifted{};  ///< joints with positions known up to a constant in each recording, ascending
-  std::vector<int> begins{0};   ///< the first sample of each recording, ascending; joints move
-                                ///< little between samples of one recording
+  /// joints with positions known up to a constant in each recording, ascending
+  std::vector<int> shifted{};
+  /// the first sample of each recording, ascending; joints move little between samples of one
+  /// recording
+  std::vector<int> begins{0};
   std::vector<double> times{};  ///< of each sample [s], for loads that depend on the time; none: 0
 };
 

@@ -86,12 +86,12 @@ class EffortResiduals final : public RecordingResiduals {
   std::vector<std::string> outputs_;
   std::vector<int> drives_;  ///< per output: its row in the model's efforts
   std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
-  std::vector<Eigen::Index>
-      begins_;  ///< the first sample of each recording in the model; then the number of samples
+  /// the first sample of each recording in the model; then the number of samples
+  std::vector<Eigen::Index> begins_;
   std::unique_ptr<EffortModel> model_;
-  std::vector<std::vector<int>> start_columns_;  ///< [recording][shifted joint of the model]: index
-                                                 ///< of its start in x; -1: known
-  Eigen::VectorXd begun_;                        ///< the x given to begin()
+  /// [recording][shifted joint of the model]: index of its start in x; -1: known
+  std::vector<std::vector<int>> start_columns_;
+  Eigen::VectorXd begun_;  ///< the x given to begin()
   SeriesLengths lengths_;
   Eigen::Index rows_ = 0;
   Eigen::MatrixXd recorded_, model_efforts_;

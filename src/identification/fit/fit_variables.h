@@ -20,13 +20,14 @@ using RecordedEffort = SampledFunction;
 /// The effort sensor of a joint, often a motor current. From the effort tau on the child it records
 /// the number r(t + delay) = (tau(t) + offset) / scale; doc/theory.md (28c).
 struct EffortSensor {
-  double scale =
-      1.0;  ///< N m (or N) per unit of the recorded number: the torque constant, gear included
+  /// N m (or N) per unit of the recorded number: the torque constant, gear included
+  double scale = 1.0;
   double offset = 0.0;  ///< recorded in addition to the effort that the mechanism needs [N m or N]
-  double delay = 0.0;   ///< delay of the recorded effort relative to the recorded motion [s];
-                        ///< negative: the effort is early
-  double start_scale =
-      1.0;  ///< scale at the start of the identification; it gives residuals their unit
+  /// delay of the recorded effort relative to the recorded motion [s]; negative: the effort is
+  /// early
+  double delay = 0.0;
+  /// scale at the start of the identification; it gives residuals their unit
+  double start_scale = 1.0;
 };
 
 /// The residual of one joint at one instant and its derivatives.

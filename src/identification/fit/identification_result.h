@@ -46,8 +46,8 @@ struct OutputFit {
   double start = 0.0;     ///< root mean square of the residuals at the start
   double rms = 0.0;       ///< root mean square of the residuals after the fit
   double worst = 0.0;     ///< largest magnitude of the residuals after the fit
-  double explained =
-      0.0;              ///< share of the recorded values that the fit explains: explained_share()
+  /// share of the recorded values that the fit explains: explained_share()
+  double explained = 0.0;
   Whiteness whiteness;  ///< of the residuals after the fit
 };
 
@@ -60,17 +60,18 @@ struct FittedSeries {
 
 /// The result of `codesign identify`.
 struct IdentificationResult {
-  Status status;  ///< ok; kNotIdentifiable, with all members; kCancelled, with the best point; or
-                  ///< the failure of the start
+  /// ok; kNotIdentifiable, with all members; kCancelled, with the best point; or the failure of the
+  /// start
+  Status status;
   std::string termination;                ///< as OptimizationResult::termination
   std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed
   Eigen::VectorXd x;
   std::vector<double> parameters;  ///< all named parameters (order of Study::parameters)
-  Eigen::MatrixXd covariance;  ///< of x; zero for numbers on a bound, infinite or NaN for numbers
-                               ///< that the data do not determine
-  int rank = 0;                ///< rank of the Jacobian by the numbers that are not on a bound
-  std::vector<std::string>
-      undetermined;  ///< sentences about numbers that the data do not determine
+  /// of x; zero for numbers on a bound, infinite or NaN for numbers that the data do not determine
+  Eigen::MatrixXd covariance;
+  int rank = 0;  ///< rank of the Jacobian by the numbers that are not on a bound
+  /// sentences about numbers that the data do not determine
+  std::vector<std::string> undetermined;
   std::vector<BaseParameter> combinations;  ///< what the data determine of these numbers
   std::vector<OutputFit> data,
       holdout;  ///< one per output; the holdout is empty if the study names none
@@ -78,8 +79,8 @@ struct IdentificationResult {
   Eigen::Index samples = 0, holdout_samples = 0;  ///< number of times, not of residuals
   int lag = 0;                                    ///< lag of the noise model, in samples
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
-  Status
-      last_failure;  ///< status of the last point that could not be evaluated; ok if there was none
+  /// status of the last point that could not be evaluated; ok if there was none
+  Status last_failure;
   double cpu_seconds = 0.0;
   FitSearches searches;  ///< for a study with several starts
   Warnings warnings;

@@ -32,16 +32,16 @@ Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& 
 
 /// One evaluation of a fit, for progress.
 struct FitTrial {
-  int evaluation = 0;   ///< from 1
-  Status status;        ///< not ok: the fit turns back from this point
-  double cost = 0.0;    ///< sum of rho(r / s); infinite if the status is not ok
-  Eigen::VectorXd rms;  ///< root mean square of the residuals of each output, in its unit; empty if
-                        ///< the status is not ok
-  Eigen::VectorXd x;    ///< the point
+  int evaluation = 0;  ///< from 1
+  Status status;       ///< not ok: the fit turns back from this point
+  double cost = 0.0;   ///< sum of rho(r / s); infinite if the status is not ok
+  /// root mean square of the residuals of each output, in its unit; empty if the status is not ok
+  Eigen::VectorXd rms;
+  Eigen::VectorXd x;                      ///< the point
   std::vector<std::string> outputs = {};  ///< ResidualSource::outputs()
   int iteration = 0;                      ///< improvements of the best point so far
-  int profile =
-      0;  ///< 1, 2, ...: an evaluation for the profile of this number; 0: an evaluation of the fit
+  /// 1, 2, ...: an evaluation for the profile of this number; 0: an evaluation of the fit
+  int profile = 0;
   int profiles = 0;  ///< numbers with a profile
 };
 /// Called after each evaluation; returning false ends the fit with kCancelled and the best point.
@@ -62,13 +62,13 @@ struct FitProblem {
 
 /// The best point of a fit.
 struct ResidualFit {
-  Status status;  ///< ok, kCancelled, or the status of a failed start; the members below are then
-                  ///< empty
+  /// ok, kCancelled, or the status of a failed start; the members below are then empty
+  Status status;
   std::string termination;  ///< as OptimizationResult::termination
   Eigen::VectorXd x;
-  Eigen::VectorXd spreads;  ///< s_k: root mean square of the residuals; with a robust loss 1.4826
-                            ///< times the median of |r|
-  double cost = 0.0;        ///< sum of rho(r / s) at x, and of the prior
+  /// s_k: root mean square of the residuals; with a robust loss 1.4826 times the median of |r|
+  Eigen::VectorXd spreads;
+  double cost = 0.0;                    ///< sum of rho(r / s) at x, and of the prior
   Eigen::MatrixXd residuals, jacobian;  ///< at x, not weighted
   Eigen::MatrixXd start_residuals;
   int evaluations = 0, failed_evaluations = 0, iterations = 0;
@@ -90,8 +90,8 @@ ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& s
 struct FitSearches {
   std::vector<StartResult> starts;  ///< best start first; empty if there was one start only
   std::vector<Optimum> optima;      ///< points at which the fits ended, best first
-  int screened = 0, unusable = 0;   ///< number of points evaluated to choose the starts, and of
-                                    ///< these the number of failed points
+  /// number of points evaluated to choose the starts, and of these the number of failed points
+  int screened = 0, unusable = 0;
 };
 
 /// The geometric mean over the outputs of the spreads of their residuals. It ranks fits from

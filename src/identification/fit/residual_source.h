@@ -81,8 +81,9 @@ struct DelaySignal {
   Eigen::Index column = 0;  ///< index of the delay in x
   Eigen::Index output = 0;  ///< index of the output
   double share = 1.0;       ///< in (0, 1], doc/theory.md (33a)
-  Eigen::VectorXd slopes;   ///< rows of the output in the delay's column of the Jacobian, without
-                            ///< the recorded effort's noise; empty: not known
+  /// rows of the output in the delay's column of the Jacobian, without the recorded effort's noise;
+  /// empty: not known
+  Eigen::VectorXd slopes;
 };
 
 /// Residuals of recordings, as an identification needs them.

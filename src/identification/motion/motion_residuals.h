@@ -80,9 +80,8 @@ class MotionResiduals final : public RecordingResiduals {
     Eigen::VectorXd x;
     std::vector<Eigen::VectorXd> starts;
   };
-  using Guesses =
-      std::vector<std::vector<Eigen::VectorXd>>;  ///< per segment: starts to begin with; empty: the
-                                                  ///< segment is skipped
+  /// per segment: starts to begin with; empty: the segment is skipped
+  using Guesses = std::vector<std::vector<Eigen::VectorXd>>;
   Guesses guesses(const Eigen::VectorXd& x) const;
   Status solve(const Eigen::VectorXd& x, const Guesses& guesses, SegmentWork work,
                std::vector<SegmentSolution>* solutions);
@@ -101,16 +100,16 @@ class MotionResiduals final : public RecordingResiduals {
   Eigen::VectorXd spreads_;
   std::vector<std::string> independent_, names_;
   std::vector<SegmentSystem> systems_;  ///< per recording
-  std::vector<std::vector<std::optional<RecordedEffort>>>
-      efforts_;                                         ///< [recording][output], of efforts
+  /// [recording][output], of efforts
+  std::vector<std::vector<std::optional<RecordedEffort>>> efforts_;
   std::vector<std::vector<Segment>> segments_;          ///< [recording]
   std::vector<SegmentRow> places_;                      ///< of all segments
   std::vector<std::unique_ptr<MotionWorker>> workers_;  ///< one per thread
   SeriesLengths lengths_, pieces_;
   Eigen::MatrixXd recorded_;
   BestPoint best_;
-  bool is_recounted_ =
-      true;  ///< whether best_.value was computed with other spreads or another loss
+  /// whether best_.value was computed with other spreads or another loss
+  bool is_recounted_ = true;
   BestStarts best_starts_;
   double inner_decrease_ = 0.0;  ///< inner_decrease()
   std::int64_t runs_ = 0, whole_runs_ = 0;

@@ -35,8 +35,8 @@ struct SegmentSystem {
   std::vector<MotionOutput> outputs;
   std::vector<std::string> inputs;  ///< joints that a recorded effort drives
   std::vector<int> columns;         ///< index in x of each tuned parameter before the start
-  int starts = 0;      ///< size of a start: positions and velocities of the independent joints,
-                       ///< integrals of controllers
+  /// size of a start: positions and velocities of the independent joints, integrals of controllers
+  int starts = 0;
   double epoch = 0.0;  ///< the time of the recording [s] at which the system's time is zero
 
   /// All parameters of the system. @param x as FitVariables orders them. @param start the start of

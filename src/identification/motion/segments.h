@@ -14,8 +14,8 @@ namespace codesign {
 /// A segment of a recording.
 struct Segment {
   SegmentBegin begin;
-  std::vector<double>
-      times;  ///< times of its samples [s] on the system's clock; the first is begin.time
+  /// times of its samples [s] on the system's clock; the first is begin.time
+  std::vector<double> times;
   Eigen::MatrixXd recorded;  ///< times x outputs; efforts as they were recorded at these times
   Eigen::VectorXd start;     ///< its measured start
 };
@@ -24,8 +24,8 @@ struct Segment {
 struct SegmentProblem {
   const SegmentSystem& of;
   const FitVariables& variables;
-  const std::vector<std::optional<RecordedEffort>>&
-      efforts;  ///< per output; only outputs that are efforts have one
+  /// per output; only outputs that are efforts have one
+  const std::vector<std::optional<RecordedEffort>>& efforts;
   const Segment& segment;
   const Eigen::VectorXd& x;
   const Eigen::VectorXd& spreads;
@@ -34,8 +34,8 @@ struct SegmentProblem {
 
 /// The task of fit_segment().
 enum class SegmentWork {
-  kElimination,  ///< at one start, by one run with all derivatives: the derivatives of residuals
-                 ///< and start by x
+  /// at one start, by one run with all derivatives: the derivatives of residuals and start by x
+  kElimination,
   kBetterStart,  ///< a better start, by a few runs with derivatives by the start alone
   kBestStart     ///< the start with which the segment fits best, by runs of the same kind
 };
@@ -44,16 +44,17 @@ enum class SegmentWork {
 struct SegmentSolution {
   Status status;
   Eigen::VectorXd start;
-  double value = 0.0;               ///< sum of rho(r / s)
-  double predicted_decrease = 0.0;  ///< decrease of the value by the best start, to first order; 0
-                                    ///< if a simulation does not resolve it
-  Eigen::MatrixXd residuals;        ///< computed minus recorded, times x outputs
-  Eigen::VectorXd
-      correction;  ///< to be subtracted from the start for the best start, to first order
+  double value = 0.0;  ///< sum of rho(r / s)
+  /// decrease of the value by the best start, to first order; 0 if a simulation does not resolve it
+  double predicted_decrease = 0.0;
+  Eigen::MatrixXd residuals;  ///< computed minus recorded, times x outputs
+  /// to be subtracted from the start for the best start, to first order
+  Eigen::VectorXd correction;
   // Only for kElimination.
-  Eigen::MatrixXd jacobian;  ///< derivatives of these residuals by x, the start following x: (times
-                             ///< outputs) x variables, output 0 first
-  Eigen::MatrixXd slope;     ///< derivative of minus the best start by x
+  /// derivatives of these residuals by x, the start following x: (times outputs) x variables,
+  /// output 0 first
+  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd slope;  ///< derivative of minus the best start by x
   int runs = 0,
       whole_runs = 0;  ///< number of simulations, and of these the number with all derivatives
 };

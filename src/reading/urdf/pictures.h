@@ -25,9 +25,9 @@ Eigen::Isometry3d plain_origin(const tinyxml2::XMLElement* element);
 
 /// The box around a visual solid.
 struct SolidBox {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< axes of the box, with the origin in
-                                                           ///< its centre, in the frame of its link
-  Eigen::Vector3d half = Eigen::Vector3d::Zero();          ///< half of its sides [m]
+  /// axes of the box, with the origin in its centre, in the frame of its link
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d half = Eigen::Vector3d::Zero();  ///< half of its sides [m]
 };
 
 /// The boxes of the solids of each link.

@@ -16,8 +16,8 @@ using tinyxml2::XMLElement;
 /// The drawable parts of a link.
 struct Skeleton {
   bool is_root = true, slides = false;
-  std::vector<Eigen::Vector3d>
-      points;  ///< frames of the joints and loops that hang on it, in its frame [m]
+  /// frames of the joints and loops that hang on it, in its frame [m]
+  std::vector<Eigen::Vector3d> points;
 };
 
 using Skeletons = std::map<std::string, Skeleton>;

@@ -11,12 +11,12 @@ namespace codesign {
 /// The attributes and children of one kind of URDF element, without our annotations (ElementRule).
 struct Vocabulary {
   using Names = std::vector<std::string>;
-  std::string path;        ///< tags from `robot` down, separated by slashes
-  Names attributes;        ///< that urdfdom reads
-  Names children;          ///< that urdfdom reads
-  Names other_attributes;  ///< that other tools read: Gazebo, Bullet, Drake, Isaac, later releases
-                           ///< of urdfdom
-  Names other_children;    ///< likewise
+  std::string path;  ///< tags from `robot` down, separated by slashes
+  Names attributes;  ///< that urdfdom reads
+  Names children;    ///< that urdfdom reads
+  /// that other tools read: Gazebo, Bullet, Drake, Isaac, later releases of urdfdom
+  Names other_attributes;
+  Names other_children;          ///< likewise
   bool repeats_children = true;  ///< false: readers use only the first child with a tag
   /// Attributes of other tools whose meaning is written otherwise here, and how.
   std::vector<std::pair<std::string, std::string>> translations = {};
@@ -43,16 +43,16 @@ std::vector<std::string> elements_with(const std::string& child);
 /// The attributes and children that one kind of element may have; doc/annotations.md describes them
 /// for users.
 struct ElementRule {
-  std::string path;     ///< tags from `robot` down, separated by slashes
-  bool strict = false;  ///< only the listed names are allowed; else only names with the prefix
-                        ///< `codesign:` are checked
+  std::string path;  ///< tags from `robot` down, separated by slashes
+  /// only the listed names are allowed; else only names with the prefix `codesign:` are checked
+  bool strict = false;
   std::vector<std::string> plain;  ///< attributes that cannot depend on parameters
-  std::vector<std::string>
-      twins;  ///< attributes that may have a twin `codesign:...` with an expression
-  std::vector<std::string>
-      own;  ///< attributes with the prefix that are not twins; listed without the prefix
-  std::vector<std::string>
-      children;  ///< all allowed children if strict, else the allowed children with the prefix
+  /// attributes that may have a twin `codesign:...` with an expression
+  std::vector<std::string> twins;
+  /// attributes with the prefix that are not twins; listed without the prefix
+  std::vector<std::string> own;
+  /// all allowed children if strict, else the allowed children with the prefix
+  std::vector<std::string> children;
 };
 
 /// The number of words of an attribute that may have a twin.

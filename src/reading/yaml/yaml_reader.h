@@ -86,8 +86,8 @@ class YamlValue {
   YAML::Node node_;
   std::shared_ptr<const std::string> file_;
   std::string path_;
-  std::shared_ptr<const YamlValue>
-      base_;  ///< the map over which this one is laid; null for a value as written
+  /// the map over which this one is laid; null for a value as written
+  std::shared_ptr<const YamlValue> base_;
 };
 
 /// The number that the whole text spells in YAML's notation (`.inf`, `.nan` included); std::nullopt

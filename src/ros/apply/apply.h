@@ -55,8 +55,8 @@ WatchOptions watch_options(const mechanism_codesign::ApplyRequest& request);
 struct GainOrder {
   std::string server;  ///< namespace of the server, as the study or the request gives it
   std::optional<RobotGains> gains;  ///< for a server as control_toolbox::Pid makes it
-  GainValues parameters;            ///< without `gains`: parameters of the study, for a server with
-                                    ///< parameters of the same names
+  /// without `gains`: parameters of the study, for a server with parameters of the same names
+  GainValues parameters;
 };
 
 /// The orders of a job: one for each controller that `hardware:` names; or, if `server` is not

@@ -57,22 +57,22 @@ struct RampOptions {
   double hold = 1.0;      ///< time for which the robot is watched with the new values [s]
   double step = 0.05;     ///< between two steps of the ramp [s]
   double patience = 1.0;  ///< longest wait for the answers to one step [s]
-  double grace = 0.1;  ///< time that the rollback waits for the answer to a pending step before it
-                       ///< gives that step up [s]
+  /// time that the rollback waits for the answer to a pending step before it gives that step up [s]
+  double grace = 0.1;
   double rollback_patience = 10.0;  ///< longest wait for the answers to the rollback [s]
 };
 
 /// Why a ramp must not go on.
 struct RampAlarm {
   std::string sentence;
-  std::chrono::steady_clock::time_point since =
-      std::chrono::steady_clock::now();  ///< time at which the cause was known
+  /// time at which the cause was known
+  std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
 };
 
 /// One server with its values.
 struct RampServer {
-  GainServer* server =
-      nullptr;  ///< not null; must outlive the ramp, and may get a last request after the ramp
+  /// not null; must outlive the ramp, and may get a last request after the ramp
+  GainServer* server = nullptr;
   GainValues before, after;  ///< the same names
 };
 
@@ -81,9 +81,8 @@ struct RampOutcome {
   /// The values that each server has: `after`, or `before` once it has confirmed the rollback;
   /// empty: unknown.
   std::vector<GainServer::Answer> now;
-  double rollback_seconds =
-      std::numeric_limits<double>::quiet_NaN();  ///< from the alarm to the last confirmation; NaN:
-                                                 ///< no rollback
+  /// from the alarm to the last confirmation; NaN: no rollback
+  double rollback_seconds = std::numeric_limits<double>::quiet_NaN();
 
   bool is_known() const;  ///< whether the values of every server are known
 };

@@ -57,8 +57,8 @@ struct WatchOptions {
   /// Largest age of the last message of each watched topic, by its arrival and by its stamp [s]. A
   /// stamp more than an hour in the future is an alarm, too.
   double max_age = 0.5;
-  double deviation =
-      0.0;  ///< largest change of a position since the first message [rad or m]; 0: not watched
+  /// largest change of a position since the first message [rad or m]; 0: not watched
+  double deviation = 0.0;
 };
 
 /// Watches a running robot: joint states and topics of numbers must keep coming, and their values

@@ -46,8 +46,8 @@ struct JobRecord {
   mechanism_codesign::OptimizeGoal request;
   mechanism_codesign::OptimizeResult result;
   std::string study;  ///< the text of the study
-  std::vector<std::string>
-      study_files{};  ///< the texts of the files that the study names, such as an identification
+  /// the texts of the files that the study names, such as an identification
+  std::vector<std::string> study_files{};
 };
 
 /// Writes the bag as `path`.active and renames it when it is complete. Topics: doc/ros_api.md.

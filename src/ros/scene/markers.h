@@ -45,11 +45,10 @@ struct MarkerStyle {
   double metres_per_newton = 0.01;       ///< length of a force arrow per newton [m/N]
   double metres_per_newton_metre = 0.1;  ///< length of a torque arrow per newton metre [m/(N m)]
   double shaft_diameter = 0.006;         ///< [m]
-  Eigen::Vector3d towards_viewer =
-      Eigen::Vector3d::Zero();  ///< unit vector in the root's axes from the mechanism to the
-                                ///< viewer; zero: none
-  std::shared_ptr<const LinkBoxes> solids =
-      nullptr;  ///< in the order of the frame's links; null: arrows begin at their joints
+  /// unit vector in the root's axes from the mechanism to the viewer; zero: none
+  Eigen::Vector3d towards_viewer = Eigen::Vector3d::Zero();
+  /// in the order of the frame's links; null: arrows begin at their joints
+  std::shared_ptr<const LinkBoxes> solids = nullptr;
   double longest = std::numeric_limits<double>::infinity();  ///< longer arrows are cut [m]
 };
 

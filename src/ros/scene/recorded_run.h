@@ -33,8 +33,9 @@ Status advance(Simulation* simulation, double from, double to, Stop&& stop) {
 /// An event of a run, and the link at which it is shown.
 struct RunEvent {
   Event event;
-  std::size_t link = 0;  ///< index in FrameNames::links: the link, or the child of the joint, on
-                         ///< which the element acts; the root if there is none
+  /// index in FrameNames::links: the link, or the child of the joint, on which the element acts;
+  /// the root if there is none
+  std::size_t link = 0;
 };
 
 /// A run of a study at one design, sampled at a fixed rate.

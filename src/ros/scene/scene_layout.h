@@ -20,21 +20,21 @@ namespace codesign {
 struct ShownRun {
   const FrameNames& names;
   const std::vector<Frame>& frames;
-  std::shared_ptr<const LinkBoxes>
-      solids;  ///< solids of its links, in the order of `names`; null: not known
+  /// solids of its links, in the order of `names`; null: not known
+  std::shared_ptr<const LinkBoxes> solids;
 };
 
 /// Placement and scales for showing runs of a mechanism in rviz. Places are in the axes of the root
 /// link [m].
 struct SceneLayout {
-  double size =
-      0.0;  ///< largest side of the box around the links and their solids over the runs [m]
-  std::vector<Eigen::Vector3d>
-      points;  ///< points of links, solids and arrows over the runs, which must all be visible
+  /// largest side of the box around the links and their solids over the runs [m]
+  double size = 0.0;
+  /// points of links, solids and arrows over the runs, which must all be visible
+  std::vector<Eigen::Vector3d> points;
   double floor = 0.0;  ///< height of the lowest solid [m]
   SceneView view;
-  Eigen::Vector3d apart = Eigen::Vector3d::Zero();  ///< from the first mechanism to the second, so
-                                                    ///< that their pictures do not overlap
+  /// from the first mechanism to the second, so that their pictures do not overlap
+  Eigen::Vector3d apart = Eigen::Vector3d::Zero();
   double letter = 0.0;  ///< height of the letters of the text above all [m]
   MarkerStyle style;    ///< without solids, which differ between designs
   bool has_forces = false, has_torques = false;  ///< whether friction arrows of that kind are drawn
@@ -49,11 +49,11 @@ SceneLayout lay_out(const std::vector<ShownRun>& runs);
 /// A view of mechanisms, with room for a text above them.
 struct Stage {
   mechanism_codesign::Scene scene;  ///< without header
-  Eigen::Vector3d caption =
-      Eigen::Vector3d::Zero();  ///< middle of the text's first line, at the top of the picture [m]
-  Eigen::Vector3d label = Eigen::Vector3d::Zero();  ///< place of a mechanism's name, above it in
-                                                    ///< the picture, relative to its root link [m]
-  double letter = 0.0;                              ///< height of the letters of names [m]
+  /// middle of the text's first line, at the top of the picture [m]
+  Eigen::Vector3d caption = Eigen::Vector3d::Zero();
+  /// place of a mechanism's name, above it in the picture, relative to its root link [m]
+  Eigen::Vector3d label = Eigen::Vector3d::Zero();
+  double letter = 0.0;  ///< height of the letters of names [m]
 };
 
 /// @param places of the root links. @param lines number of lines of the text; 0: none.

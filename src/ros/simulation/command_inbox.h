@@ -54,8 +54,8 @@ class CommandInbox {
   std::vector<Command> commands_;
   ros::Time awaited_;
   bool answered_ = false;
-  std::map<std::string, ros::WallTime> warned_;  ///< per topic: time of the last warning of a
-                                                 ///< refused message, at most one per second
+  /// per topic: time of the last warning of a refused message, at most one per second
+  std::map<std::string, ros::WallTime> warned_;
   std::size_t refused_ = 0;
   std::vector<ros::Subscriber> subscribers_;
 };

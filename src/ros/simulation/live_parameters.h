@@ -32,8 +32,9 @@ dynamic_reconfigure::Config config_of(const std::vector<Parameter>& parameters,
 /// The values of a request.
 struct WantedParameters {
   std::vector<double> values;  ///< values of all parameters, within their bounds
-  Warnings warnings;  ///< `parameter_refused`: unknown names and numbers that are not finite; they
-                      ///< are ignored; `parameter_bounded`: values that were replaced by a bound
+  /// `parameter_refused`: unknown names and numbers that are not finite; they are ignored;
+  /// `parameter_bounded`: values that were replaced by a bound
+  Warnings warnings;
 };
 WantedParameters wanted_parameters(const std::vector<Parameter>& parameters,
                                    const std::vector<double>& values,

@@ -13,19 +13,19 @@ namespace codesign {
 /// The private parameters of the simulation node; doc/ros_api.md.
 struct SimulationOptions {
   double rate = 50.0;  ///< frames per second of the run
-  double time_scale =
-      1.0;  ///< seconds of the run per second; 0: mode as_fast_as_possible, with /clock
-  double publish_limit =
-      500.0;  ///< frames per second of wall time, in that mode and while there are subscribers
-  bool loop = false;         ///< start again at the end of the study
-  std::string world_frame;   ///< TF frame to publish as the parent of the root link; empty: none
-  std::string frame_prefix;  ///< before the name of each link's TF frame; if not empty, the node
-                             ///< publishes all frames
-  std::vector<std::string>
-      wait_for_subscribers;  ///< topics that must have a subscriber before the run begins
-  std::string bag;           ///< path of a bag of the first run; empty: none
-  std::vector<std::string>
-      command_joints;  ///< joints that take efforts, in order; empty: all that can be driven
+  /// seconds of the run per second; 0: mode as_fast_as_possible, with /clock
+  double time_scale = 1.0;
+  /// frames per second of wall time, in that mode and while there are subscribers
+  double publish_limit = 500.0;
+  bool loop = false;        ///< start again at the end of the study
+  std::string world_frame;  ///< TF frame to publish as the parent of the root link; empty: none
+  /// before the name of each link's TF frame; if not empty, the node publishes all frames
+  std::string frame_prefix;
+  /// topics that must have a subscriber before the run begins
+  std::vector<std::string> wait_for_subscribers;
+  std::string bag;  ///< path of a bag of the first run; empty: none
+  /// joints that take efforts, in order; empty: all that can be driven
+  std::vector<std::string> command_joints;
   std::vector<std::string> disconnect;  ///< controllers whose output is not applied
   double command_timeout = 0.0;  ///< [s] of the run after which commanded efforts end; 0: never
   double duration = 0.0;         ///< [s] of a run; 0: the study's
