@@ -29,21 +29,45 @@ T as_given(const ControlValues<T>& x) {
   return x.given;
 }
 
-using I = ControlInput;
-using L = ControlLoad;
+constexpr ControlLaw make_row(const char* name, Law<ControlFunction> output, ControlInput input) {
+  ControlLaw law;
+  law.name = name;
+  law.output = output;
+  law.input = input;
+  return law;
+}
 
-// name, output, gains, input, load, reads_rate, is_pid
+constexpr ControlLaw computed_torque_law() {
+  ControlLaw law =
+      make_row("computed_torque", {computed_torque, computed_torque}, ControlInput::kOwnPosition);
+  law.gains = "pd";
+  law.load = ControlLoad::kDemanded;
+  law.reads_rate = true;
+  return law;
+}
+
+constexpr ControlLaw pd_gravity_law() {
+  ControlLaw law = make_row("pd_gravity", {pd_gravity, pd_gravity}, ControlInput::kOwnPosition);
+  law.gains = "pd";
+  law.load = ControlLoad::kAtRest;
+  law.reads_rate = true;
+  return law;
+}
+
+constexpr ControlLaw pid_law() {
+  ControlLaw law = make_row("pid", {pid, pid}, ControlInput::kSignal);
+  law.gains = "pid";
+  law.reads_rate = true;
+  law.is_pid = true;
+  return law;
+}
+
 constexpr ControlLaw kControlTable[] = {
-    {"basis", {as_given, as_given}, "", I::kShape},
-    {"computed_torque",
-     {computed_torque, computed_torque},
-     "pd",
-     I::kOwnPosition,
-     L::kDemanded,
-     true},
-    {"pd_gravity", {pd_gravity, pd_gravity}, "pd", I::kOwnPosition, L::kAtRest, true},
-    {"pid", {pid, pid}, "pid", I::kSignal, L::kNone, true, true},
-    {"state_feedback", {as_given, as_given}, "", I::kFeedback},
+    make_row("basis", {as_given, as_given}, ControlInput::kShape),
+    computed_torque_law(),
+    pd_gravity_law(),
+    pid_law(),
+    make_row("state_feedback", {as_given, as_given}, ControlInput::kFeedback),
 };
 
 }  // namespace

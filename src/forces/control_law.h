@@ -84,8 +84,8 @@ enum class ControlLoad {
 /// A control law, one row of the table in control_law.cc: its name, what it reads, and one function
 /// of values; doc/theory.md (C3)-(C8).
 struct ControlLaw {
-  const char* name;  ///< the value of the controller's `type`
-  Law<ControlFunction> output;
+  const char* name = "";  ///< the value of the controller's `type`
+  Law<ControlFunction> output{};
   const char* gains = "";  ///< the letters of the gains that the study may give
   ControlInput input = ControlInput::kSignal;
   ControlLoad load = ControlLoad::kNone;

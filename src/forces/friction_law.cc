@@ -18,41 +18,48 @@ T brown_mcphee_curve(const T& v, const T& mu_static, const T& mu_dynamic,
   return brown_mcphee(v, mu_static, mu_dynamic, c.transition_velocity);
 }
 
-// name, title, curve, per_speed, bristle, dwells, directional, divides_by_mu_dynamic,
-// has_stribeck_velocity, only_above_mu_dynamic, steady
-constexpr FrictionLaw kFrictionTable[] = {
-    {"brown_mcphee",
-     "Brown and McPhee",
-     {brown_mcphee_curve, brown_mcphee_curve},
-     {friction_per_speed, friction_per_speed},
-     {},
-     false,
-     true,
-     false},
-    {"gonthier",
-     "Gonthier",
-     {},
-     {},
-     {gonthier, gonthier},
-     true,
-     false,
-     false,
-     false,
-     false,
-     {steady_gonthier, steady_gonthier}},
-    {"lugre",
-     "LuGre",
-     {},
-     {},
-     {lugre, lugre},
-     false,
-     false,
-     true,
-     false,
-     true,
-     {steady_lugre, steady_lugre}},
-    {"stribeck", "Stribeck", {stribeck, stribeck}, {}, {}, false, true, false, true},
-};
+constexpr FrictionLaw make_row(const char* name, const char* title) {
+  FrictionLaw law;
+  law.name = name;
+  law.title = title;
+  return law;
+}
+
+constexpr FrictionLaw brown_mcphee_law() {
+  FrictionLaw law = make_row("brown_mcphee", "Brown and McPhee");
+  law.curve = {brown_mcphee_curve, brown_mcphee_curve};
+  law.per_speed = {friction_per_speed, friction_per_speed};
+  law.directional = true;
+  return law;
+}
+
+constexpr FrictionLaw gonthier_law() {
+  FrictionLaw law = make_row("gonthier", "Gonthier");
+  law.bristle = {gonthier, gonthier};
+  law.dwells = true;
+  law.steady = {steady_gonthier, steady_gonthier};
+  return law;
+}
+
+constexpr FrictionLaw lugre_law() {
+  FrictionLaw law = make_row("lugre", "LuGre");
+  law.bristle = {lugre, lugre};
+  law.divides_by_mu_dynamic = true;
+  law.only_above_mu_dynamic = true;
+  law.steady = {steady_lugre, steady_lugre};
+  return law;
+}
+
+constexpr FrictionLaw stribeck_law() {
+  FrictionLaw law = make_row("stribeck", "Stribeck");
+  law.curve = {stribeck, stribeck};
+  law.directional = true;
+  law.has_stribeck_velocity = true;
+  return law;
+}
+
+constexpr FrictionLaw kFrictionTable[] = {brown_mcphee_law(), gonthier_law(), lugre_law(),
+                                          stribeck_law()};
 
 }  // namespace
 

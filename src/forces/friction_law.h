@@ -49,8 +49,8 @@ using SteadyFunction = BristleState<T> (*)(const Vector3<T>& u, const FrictionNu
 /// A friction law, one row of the table in friction_law.cc: its name, and one function of values. A
 /// law without states has `curve`, a law with states `bristle`.
 struct FrictionLaw {
-  const char* name;   ///< the value of `<codesign:friction model>`
-  const char* title;  ///< its name in sentences
+  const char* name = "";   ///< the value of `<codesign:friction model>`
+  const char* title = "";  ///< its name in sentences
   Law<FrictionCurve> curve{};
   /// for joints that slip in several directions; without it, curve(|u|)/|u| just beside rest
   Law<FrictionPerSpeed> per_speed{};

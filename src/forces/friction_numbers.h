@@ -57,7 +57,7 @@ struct FrictionNumberRule {
   enum class Form { kAny, kCoefficients, kDirect };
 
   const char* attribute;
-  bool zero_allowed;  ///< whether zero is allowed; negative values never are
+  bool zero_allowed = false;  ///< whether zero is allowed; negative values never are
   Missing missing = Missing::kStandard;
   double standard = 0.0;
   Laws laws = Laws::kAll;
@@ -66,6 +66,42 @@ struct FrictionNumberRule {
   bool of_gears = false;     ///< whether `<codesign:actuator>` has it, too; theory (9b)
 
   bool is_in(bool direct) const { return form == Form::kAny || (form == Form::kDirect) == direct; }
+
+  // The rule with one member changed, for the rows below.
+  constexpr FrictionNumberRule with_zero() const {
+    FrictionNumberRule rule = *this;
+    rule.zero_allowed = true;
+    return rule;
+  }
+  constexpr FrictionNumberRule if_missing(Missing kind, double value = 0.0) const {
+    FrictionNumberRule rule = *this;
+    rule.missing = kind;
+    rule.standard = value;
+    return rule;
+  }
+  constexpr FrictionNumberRule if_missing(double value) const {
+    return if_missing(Missing::kStandard, value);
+  }
+  constexpr FrictionNumberRule used_by(Laws which) const {
+    FrictionNumberRule rule = *this;
+    rule.laws = which;
+    return rule;
+  }
+  constexpr FrictionNumberRule in_form(Form which) const {
+    FrictionNumberRule rule = *this;
+    rule.form = which;
+    return rule;
+  }
+  constexpr FrictionNumberRule against_the_axis() const {
+    FrictionNumberRule rule = *this;
+    rule.is_backward = true;
+    return rule;
+  }
+  constexpr FrictionNumberRule also_of_gears() const {
+    FrictionNumberRule rule = *this;
+    rule.of_gears = true;
+    return rule;
+  }
 };
 
 /// Calls visit(rule, member of each structure...) for each number, in the order in which they are
@@ -76,41 +112,59 @@ void visit_friction_numbers(const Visit& visit, Values*... of) {
   using U = FrictionNumberRule::Laws;
   using F = FrictionNumberRule::Form;
   using R = FrictionNumberRule;
-  visit(R{"mu_static", true, M::kRefused, 0.0, U::kAll, F::kCoefficients}, of->mu_static...);
-  visit(R{"mu_dynamic", true, M::kRefused, 0.0, U::kAll, F::kCoefficients}, of->mu_dynamic...);
-  visit(R{"coulomb", true, M::kRefused, 0.0, U::kAll, F::kDirect}, of->mu_dynamic...);
-  visit(R{"static", true, M::kCoulomb, 0.0, U::kAll, F::kDirect}, of->mu_static...);
-  visit(R{"transition_velocity", false, M::kStandard, 1e-2, U::kAll, F::kAny, false, true},
-        of->transition_velocity...);
-  visit(R{"stribeck_velocity", false, M::kTenTransitions, 0.0, U::kStribeck},
+  visit(R{"mu_static"}.with_zero().if_missing(M::kRefused).in_form(F::kCoefficients),
+        of->mu_static...);
+  visit(R{"mu_dynamic"}.with_zero().if_missing(M::kRefused).in_form(F::kCoefficients),
+        of->mu_dynamic...);
+  visit(R{"coulomb"}.with_zero().if_missing(M::kRefused).in_form(F::kDirect), of->mu_dynamic...);
+  visit(R{"static"}.with_zero().if_missing(M::kCoulomb).in_form(F::kDirect), of->mu_static...);
+  visit(R{"transition_velocity"}.if_missing(1e-2).also_of_gears(), of->transition_velocity...);
+  visit(R{"stribeck_velocity"}.if_missing(M::kTenTransitions).used_by(U::kStribeck),
         of->stribeck_velocity...);
-  visit(R{"joint_length", false, M::kLengthOfOne, 0.0, U::kAll, F::kCoefficients},
+  visit(R{"joint_length"}.if_missing(M::kLengthOfOne).in_form(F::kCoefficients),
         of->joint_length...);
-  visit(R{"joint_width", false, M::kLengthOfOne, 0.0, U::kAll, F::kCoefficients},
-        of->joint_width...);
-  visit(R{"pin_radius", false, M::kStandard, 0.0, U::kAll, F::kCoefficients}, of->pin_radius...);
-  visit(R{"friction_arm", false, M::kPinRadius, 0.0, U::kAll, F::kCoefficients},
-        of->friction_arm...);
-  visit(R{"preload", true, M::kStandard, 0.0, U::kAll, F::kCoefficients}, of->preload...);
-  visit(R{"smoothing", false, M::kOfMachine, 0.0, U::kAll, F::kCoefficients, false, true},
+  visit(R{"joint_width"}.if_missing(M::kLengthOfOne).in_form(F::kCoefficients), of->joint_width...);
+  visit(R{"pin_radius"}.in_form(F::kCoefficients), of->pin_radius...);
+  visit(R{"friction_arm"}.if_missing(M::kPinRadius).in_form(F::kCoefficients), of->friction_arm...);
+  visit(R{"preload"}.with_zero().in_form(F::kCoefficients), of->preload...);
+  visit(R{"smoothing"}.if_missing(M::kOfMachine).in_form(F::kCoefficients).also_of_gears(),
         of->smoothing...);
-  visit(R{"viscous", true}, of->viscous...);
-  visit(R{"viscous_exponent", false, M::kStandard, 1.0}, of->viscous_exponent...);
-  visit(R{"bristle_stiffness", false, M::kStandard, 1e4, U::kBristles, F::kAny, false, true},
+  visit(R{"viscous"}.with_zero(), of->viscous...);
+  visit(R{"viscous_exponent"}.if_missing(1.0), of->viscous_exponent...);
+  visit(R{"bristle_stiffness"}.if_missing(1e4).used_by(U::kBristles).also_of_gears(),
         of->bristle_stiffness...);
-  visit(R{"bristle_damping", false, M::kStandard, 10.0, U::kBristles, F::kAny, false, true},
+  visit(R{"bristle_damping"}.if_missing(10.0).used_by(U::kBristles).also_of_gears(),
         of->bristle_damping...);
-  visit(R{"dwell_time", false, M::kStandard, 2.0, U::kDwelling, F::kAny, false, true},
-        of->dwell_time...);
-  visit(R{"mu_static_backward", true, M::kMuStatic, 0.0, U::kDirectional, F::kCoefficients, true},
+  visit(R{"dwell_time"}.if_missing(2.0).used_by(U::kDwelling).also_of_gears(), of->dwell_time...);
+  visit(R{"mu_static_backward"}
+            .with_zero()
+            .if_missing(M::kMuStatic)
+            .used_by(U::kDirectional)
+            .against_the_axis()
+            .in_form(F::kCoefficients),
         of->mu_static_backward...);
-  visit(R{"mu_dynamic_backward", true, M::kMuDynamic, 0.0, U::kDirectional, F::kCoefficients, true},
+  visit(R{"mu_dynamic_backward"}
+            .with_zero()
+            .if_missing(M::kMuDynamic)
+            .used_by(U::kDirectional)
+            .against_the_axis()
+            .in_form(F::kCoefficients),
         of->mu_dynamic_backward...);
-  visit(R{"coulomb_backward", true, M::kCoulomb, 0.0, U::kDirectional, F::kDirect, true},
+  visit(R{"coulomb_backward"}
+            .with_zero()
+            .if_missing(M::kCoulomb)
+            .used_by(U::kDirectional)
+            .against_the_axis()
+            .in_form(F::kDirect),
         of->mu_dynamic_backward...);
-  visit(R{"static_backward", true, M::kStatic, 0.0, U::kDirectional, F::kDirect, true},
+  visit(R{"static_backward"}
+            .with_zero()
+            .if_missing(M::kStatic)
+            .used_by(U::kDirectional)
+            .against_the_axis()
+            .in_form(F::kDirect),
         of->mu_static_backward...);
-  visit(R{"viscous_backward", true, M::kViscous, 0.0, U::kAll, F::kAny, true},
+  visit(R{"viscous_backward"}.with_zero().if_missing(M::kViscous).against_the_axis(),
         of->viscous_backward...);
 }
 

@@ -78,86 +78,171 @@ void fixed_rows_in_plane(const PairConstants<T>& c, PairRows<T>* rows) {
 
 using J = JointType;
 using F = ForceRows;
-constexpr Law<PairRowsFunction> kNoRows{}, kTurnless{fixed_rows, fixed_rows},
-    kHinge{revolute_rows, revolute_rows};
-constexpr BearingLaw kPlane{{planar_normal_force, planar_normal_force}},
-    kPin{{pin_normal_force, pin_normal_force}, true, false, true},
-    kPinHeldAlong{{revolute_normal_force, revolute_normal_force}, true, false, true},
-    kRail{{translational_normal_force, translational_normal_force}, true, true, false},
-    kBall{{ball_normal_force, ball_normal_force}, false, false, true};
 
-// of_joints, of_loops, type, rows, force, torque_rows, in_forest, add_rows, bearing,
-// slip_coordinates, slips_of_the_point, in_plane
-constexpr JointLaw kFixedInPlane{
-    nullptr,    nullptr, J::kFixed, 3,
-    F::kAcross, false,   false,     {fixed_rows_in_plane, fixed_rows_in_plane}},
-    kRevoluteInPlane{
-        nullptr,      nullptr, J::kRevolute, 2,
-        F::kAcross,   false,   false,        {revolute_rows_in_plane, revolute_rows_in_plane},
-        kPinHeldAlong},
-    kPrismaticInPlane{
-        nullptr,    nullptr, J::kPrismatic, 2,
-        F::kAlongX, true,    false,         {prismatic_rows_in_plane, prismatic_rows_in_plane},
-        kRail};
-constexpr JointLaw kJointTable[] = {
-    {"fixed", "fixed", J::kFixed, 6, F::kAll, true, false, kTurnless, {}, 0, 0, &kFixedInPlane},
-    {"revolute", "revolute", J::kRevolute, 5, F::kAll, true, true, kHinge, kPinHeldAlong, 0, 0,
-     &kRevoluteInPlane},
-    {"continuous", "continuous", J::kContinuous, 5, F::kAll, true, true, kHinge, kPinHeldAlong, 0,
-     0, &kRevoluteInPlane},
-    {"prismatic",
-     "prismatic",
-     J::kPrismatic,
-     5,
-     F::kAcross,
-     true,
-     true,
-     {prismatic_rows, prismatic_rows},
-     kRail,
-     0,
-     0,
-     &kPrismaticInPlane},
-    {"planar",
-     "planar",
-     J::kPlanar,
-     3,
-     F::kAlong,
-     true,
-     true,
-     {planar_rows, planar_rows},
-     kPlane,
-     3,
-     2},
-    {"floating", nullptr, J::kFloating, 0, F::kNone, false},
-    {nullptr, "codesign:spherical", J::kSpherical, 3, F::kAll, false, false, kNoRows, kBall, 3, 3},
-    {nullptr,
-     "codesign:universal",
-     J::kUniversal,
-     4,
-     F::kAll,
-     false,
-     true,
-     {universal_rows, universal_rows}},
-    {nullptr,
-     "codesign:cylindrical",
-     J::kCylindrical,
-     4,
-     F::kAcross,
-     true,
-     true,
-     {cylindrical_rows, cylindrical_rows},
-     kPin},
-    {nullptr,
-     "codesign:distance",
-     J::kDistance,
-     1,
-     F::kNone,
-     false,
-     false,
-     {distance_rows, distance_rows}},
-    {nullptr, nullptr, J::kOther, 4, F::kAlong, true, true, {table_rows, table_rows}, kPlane, 2, 2},
-    {nullptr, nullptr, J::kOther, 3, F::kNone, true, true, kTurnless},
-};
+constexpr BearingLaw bearing(Law<NormalForceFunction> normal_force) {
+  BearingLaw law;
+  law.normal_force = normal_force;
+  return law;
+}
+constexpr BearingLaw hinge(Law<NormalForceFunction> normal_force) {
+  BearingLaw law = bearing(normal_force);
+  law.joint_length = law.pin_radius = true;
+  return law;
+}
+constexpr BearingLaw rail() {
+  BearingLaw law = bearing({translational_normal_force, translational_normal_force});
+  law.joint_length = law.joint_width = true;
+  return law;
+}
+constexpr BearingLaw ball() {
+  BearingLaw law = bearing({ball_normal_force, ball_normal_force});
+  law.pin_radius = true;
+  return law;
+}
+constexpr BearingLaw kPlane = bearing({planar_normal_force, planar_normal_force});
+constexpr BearingLaw kPin = hinge({pin_normal_force, pin_normal_force});
+constexpr BearingLaw kPinHeldAlong = hinge({revolute_normal_force, revolute_normal_force});
+
+constexpr JointLaw make_row(J type, int rows, F force) {
+  JointLaw law;
+  law.type = type;
+  law.rows = rows;
+  law.force = force;
+  return law;
+}
+
+constexpr JointLaw fixed_in_plane() {
+  JointLaw law = make_row(J::kFixed, 3, F::kAcross);
+  law.add_rows = {fixed_rows_in_plane, fixed_rows_in_plane};
+  return law;
+}
+
+constexpr JointLaw revolute_in_plane() {
+  JointLaw law = make_row(J::kRevolute, 2, F::kAcross);
+  law.add_rows = {revolute_rows_in_plane, revolute_rows_in_plane};
+  law.bearing = kPinHeldAlong;
+  return law;
+}
+
+constexpr JointLaw prismatic_in_plane() {
+  JointLaw law = make_row(J::kPrismatic, 2, F::kAlongX);
+  law.torque_rows = true;
+  law.add_rows = {prismatic_rows_in_plane, prismatic_rows_in_plane};
+  law.bearing = rail();
+  return law;
+}
+
+constexpr JointLaw kFixedInPlane = fixed_in_plane(), kRevoluteInPlane = revolute_in_plane(),
+                   kPrismaticInPlane = prismatic_in_plane();
+
+constexpr JointLaw fixed() {
+  JointLaw law = make_row(J::kFixed, 6, F::kAll);
+  law.of_joints = law.of_loops = "fixed";
+  law.torque_rows = true;
+  law.add_rows = {fixed_rows, fixed_rows};
+  law.in_plane = &kFixedInPlane;
+  return law;
+}
+
+constexpr JointLaw revolute(J type, const char* name) {
+  JointLaw law = make_row(type, 5, F::kAll);
+  law.of_joints = law.of_loops = name;
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {revolute_rows, revolute_rows};
+  law.bearing = kPinHeldAlong;
+  law.in_plane = &kRevoluteInPlane;
+  return law;
+}
+
+constexpr JointLaw prismatic() {
+  JointLaw law = make_row(J::kPrismatic, 5, F::kAcross);
+  law.of_joints = law.of_loops = "prismatic";
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {prismatic_rows, prismatic_rows};
+  law.bearing = rail();
+  law.in_plane = &kPrismaticInPlane;
+  return law;
+}
+
+constexpr JointLaw planar() {
+  JointLaw law = make_row(J::kPlanar, 3, F::kAlong);
+  law.of_joints = law.of_loops = "planar";
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {planar_rows, planar_rows};
+  law.bearing = kPlane;
+  law.slip_coordinates = 3;
+  law.slips_of_the_point = 2;
+  return law;
+}
+
+constexpr JointLaw floating() {
+  JointLaw law = make_row(J::kFloating, 0, F::kNone);
+  law.of_joints = "floating";
+  return law;
+}
+
+constexpr JointLaw spherical() {
+  JointLaw law = make_row(J::kSpherical, 3, F::kAll);
+  law.of_loops = "codesign:spherical";
+  law.bearing = ball();
+  law.slip_coordinates = law.slips_of_the_point = 3;
+  return law;
+}
+
+constexpr JointLaw universal() {
+  JointLaw law = make_row(J::kUniversal, 4, F::kAll);
+  law.of_loops = "codesign:universal";
+  law.in_forest = true;
+  law.add_rows = {universal_rows, universal_rows};
+  return law;
+}
+
+constexpr JointLaw cylindrical() {
+  JointLaw law = make_row(J::kCylindrical, 4, F::kAcross);
+  law.of_loops = "codesign:cylindrical";
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {cylindrical_rows, cylindrical_rows};
+  law.bearing = kPin;
+  return law;
+}
+
+constexpr JointLaw distance() {
+  JointLaw law = make_row(J::kDistance, 1, F::kNone);
+  law.of_loops = "codesign:distance";
+  law.add_rows = {distance_rows, distance_rows};
+  return law;
+}
+
+/// A folded chain of two slides.
+constexpr JointLaw table() {
+  JointLaw law = make_row(J::kOther, 4, F::kAlong);
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {table_rows, table_rows};
+  law.bearing = kPlane;
+  law.slip_coordinates = law.slips_of_the_point = 2;
+  return law;
+}
+
+/// A folded chain of three slides.
+constexpr JointLaw translational() {
+  JointLaw law = make_row(J::kOther, 3, F::kNone);
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {fixed_rows, fixed_rows};
+  return law;
+}
+
+constexpr JointLaw kJointTable[] = {fixed(),
+                                    revolute(J::kRevolute, "revolute"),
+                                    revolute(J::kContinuous, "continuous"),
+                                    prismatic(),
+                                    planar(),
+                                    floating(),
+                                    spherical(),
+                                    universal(),
+                                    cylindrical(),
+                                    distance(),
+                                    table(),
+                                    translational()};
 
 constexpr const JointLaw& row_of(JointType type) {
   std::size_t k = 0;

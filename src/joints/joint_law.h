@@ -72,15 +72,16 @@ struct BearingLaw {
 /// that it makes, and its functions of values. Body i is on the parent's side, body j on the
 /// child's; z is the joint axis.
 struct JointLaw {
-  const char* of_joints;  ///< value of `<joint type>`; null: no joint of the tree has this type
-  const char* of_loops;   ///< value of `<loop type>`; null: no loop has it
+  /// value of `<joint type>`; null: no joint of the tree has this type
+  const char* of_joints = nullptr;
+  const char* of_loops = nullptr;  ///< value of `<loop type>`; null: no loop has it
   /// kOther: nothing but this row depends on it; such a joint is a loop, or arises by folding
-  JointType type;
-  int rows;         ///< number of constraint rows
-  ForceRows force;  ///< the force components that the first rows stand for
+  JointType type = JointType::kOther;
+  int rows = 0;                        ///< number of constraint rows
+  ForceRows force = ForceRows::kNone;  ///< the force components that the first rows stand for
   /// whether the next rows are (T_y, -T_x, T_z) of the reaction torque T'', as far as there are
   /// rows
-  bool torque_rows;
+  bool torque_rows = false;
   /// whether its coordinates are scalars, which hold in all positions; theory (56)
   bool in_forest = false;
   Law<PairRowsFunction> add_rows{};

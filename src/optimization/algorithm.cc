@@ -14,26 +14,31 @@ namespace {
 struct Algorithm {
   /// std::nullopt: Levenberg-Marquardt, which NLopt does not have, and `auto`
   std::optional<nlopt::algorithm> id;
-  bool takes_constraints, takes_equalities;
+  /// The most that it takes beside bounds of parameters.
+  enum class Takes { kBounds, kInequalities, kEqualities } takes;
+
+  bool takes_constraints() const { return takes != Takes::kBounds; }
+  bool takes_equalities() const { return takes == Takes::kEqualities; }
 };
 
 constexpr const char* kLeastSquares = "levenberg_marquardt";
 constexpr const char* kAuto = "auto";
 
 const std::map<std::string, Algorithm>& algorithms() {
+  using Takes = Algorithm::Takes;
   static const std::map<std::string, Algorithm> table{
-      {"lbfgs", {nlopt::LD_LBFGS, false, false}},
-      {"var1", {nlopt::LD_VAR1, false, false}},
-      {"var2", {nlopt::LD_VAR2, false, false}},
-      {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, false, false}},
-      {"mma", {nlopt::LD_MMA, true, false}},
-      {"ccsaq", {nlopt::LD_CCSAQ, true, false}},
-      {"slsqp", {nlopt::LD_SLSQP, true, true}},
-      {"cobyla", {nlopt::LN_COBYLA, true, true}},
-      {"bobyqa", {nlopt::LN_BOBYQA, false, false}},
-      {"auglag_lbfgs", {nlopt::LD_AUGLAG, true, true}},
-      {kLeastSquares, {std::nullopt, false, false}},
-      {kAuto, {std::nullopt, true, true}}};
+      {"lbfgs", {nlopt::LD_LBFGS, Takes::kBounds}},
+      {"var1", {nlopt::LD_VAR1, Takes::kBounds}},
+      {"var2", {nlopt::LD_VAR2, Takes::kBounds}},
+      {"tnewton", {nlopt::LD_TNEWTON_PRECOND_RESTART, Takes::kBounds}},
+      {"mma", {nlopt::LD_MMA, Takes::kInequalities}},
+      {"ccsaq", {nlopt::LD_CCSAQ, Takes::kInequalities}},
+      {"slsqp", {nlopt::LD_SLSQP, Takes::kEqualities}},
+      {"cobyla", {nlopt::LN_COBYLA, Takes::kEqualities}},
+      {"bobyqa", {nlopt::LN_BOBYQA, Takes::kBounds}},
+      {"auglag_lbfgs", {nlopt::LD_AUGLAG, Takes::kEqualities}},
+      {kLeastSquares, {std::nullopt, Takes::kBounds}},
+      {kAuto, {std::nullopt, Takes::kEqualities}}};
   return table;
 }
 
@@ -58,11 +63,11 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
   const auto refuse = [&fault](const char* message, bool equalities) {
     fault.message = message;
     fault.allowed = names([equalities](const Algorithm& other) {
-      return equalities ? other.takes_equalities : other.takes_constraints;
+      return equalities ? other.takes_equalities() : other.takes_constraints();
     });
     throw InputError(fault);
   };
-  if (!algorithm.takes_constraints) {
+  if (!algorithm.takes_constraints()) {
     if (!study.constraints.empty())
       refuse("this algorithm takes no constraints on parameters", false);
     if (!study.watched.empty())
@@ -75,7 +80,7 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
           "this algorithm takes no constraints, which robust.measure worst and cvar are solved by",
           false);
   }
-  if (!algorithm.takes_equalities &&
+  if (!algorithm.takes_equalities() &&
       (has_equality(study) || std::any_of(study.watched.begin(), study.watched.end(), is_equality)))
     refuse(
         "this algorithm takes no equality constraints, such as == among parameters and final with "

@@ -19,13 +19,18 @@ AdjointGradient::Backward::Backward(const CompiledSystem& system, const Rosenbro
 }
 
 AdjointGradient::AdjointGradient(const CompiledSystem& system, int most_points)
-    : system_(system), most_points_(most_points), integrator_(system), end_(system) {
+    : system_(system),
+      most_points_(most_points),
+      integrator_(system),
+      end_(system),
+      one_sided_(system) {
   judge_ = [this](RosenbrockStep<double>* step) { return control_->attempt(step); };
 }
 
 // The workspace of the backward pass is allocated only when a gradient is requested.
 Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives derivatives) {
   with_gradient_ = derivatives != Derivatives::kNone;
+  one_sided_.start();
   integrator_.watch_singularities(with_gradient_);
   Status status = integrator_.start(parameters);
   if (!status.ok() || !with_gradient_) return status;
@@ -35,6 +40,8 @@ Status AdjointGradient::start(const std::vector<double>& parameters, Derivatives
   }
   control_->start(parameters, &integrator_);
   back_->replay.start(integrator_);
+  one_sided_.look_at_start(
+      &integrator_, [this](int guard, Eigen::VectorXd* by) { differentiate_guard(guard, by); });
   return status;
 }
 
@@ -73,26 +80,27 @@ bool AdjointGradient::look_at_end() {
          integrator_.judge_end(integrator_.guard_rate(end_.state(), end_.rates())).ok();
 }
 
-// The backward pass begins with the gradient of the terminal terms as the adjoint of the last
-// state, and 1 for psi; and with the guard that ended the run.
-void AdjointGradient::prepare() {
-  const std::vector<double>& parameters = integrator_.equations().parameters();
+// The adjoint of the last state, and 1 for psi.
+void AdjointGradient::take_terminal(const State<double>& end) {
   const IncrementLayout at(system_.layout());
   VectorX<double>& adjoint = back_->final_adjoint;
-  integrator_.equations().terminal_gradient(integrator_.state(), &back_->terminal);
+  integrator_.equations().terminal_gradient(end, &back_->terminal);
   adjoint.setZero();
   adjoint[at.psi()] = 1.0;
   for (const auto& e : back_->terminal.position) adjoint[at.x() + e.column] += e.value;
   for (const auto& e : back_->terminal.velocity) adjoint[at.v() + e.column] += e.value;
   for (const auto& e : back_->terminal.rate) adjoint[at.z() + e.column] += e.value;
-  back_->jumps.start(parameters);
+  back_->jumps.start(integrator_.equations().parameters());
+}
+
+// The backward pass begins at the end of the run, and with the guard that ended it.
+void AdjointGradient::prepare() {
+  take_terminal(integrator_.state());
   if (const int guard = integrator_.end_guard(); end_.moves() && guard >= 0) {
     const double rate = integrator_.guard_rate(end_.state(), end_.rates());
     back_->jumps.add_guard(guard, -end_.objective_rate() / rate, integrator_.state(),
-                           integrator_.mode(), &adjoint);
+                           integrator_.mode(), &back_->final_adjoint);
   }
-  back_->adjoint.start(parameters, adjoint);
-  back_->replay.begin(&integrator_);
 }
 
 bool AdjointGradient::jump_back(const RunJump& jump, int k) {
@@ -129,9 +137,9 @@ bool AdjointGradient::step_back(int k) {
 
 // Adds the parts of (18a) at both ends of the run, psi_y(0)^T y_rho(0) and w_rho, with one lane per
 // parameter. The rates of the start are solved for again, since extend() goes on from there.
-void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
+void AdjointGradient::add_boundaries(const VectorX<double>& adjoint, const State<double>* end,
+                                     Eigen::VectorXd* gradient) {
   const IncrementLayout at(system_.layout());
-  const VectorX<double>& adjoint = back_->adjoint.adjoint();
   Equations<Lanes<8>>& equations = back_->boundary;
   back_->initial = integrator_.initial_state();
   integrator_.equations().hold({});
@@ -156,13 +164,15 @@ void AdjointGradient::add_boundaries(Eigen::VectorXd* gradient) {
     add(state.s, at.s());
     add(state.v, at.v());
     add(state.z, at.z());
-    cast_state(integrator_.state(), &state);
+    if (end == nullptr) continue;
+    cast_state(*end, &state);
     sum += equations.terminal(state).directions().head(range.count);
   }
 }
 
 bool AdjointGradient::go_back() {
-  prepare();
+  back_->adjoint.start(integrator_.equations().parameters(), back_->final_adjoint);
+  back_->replay.begin(&integrator_);
   for (int k = back_->replay.size(); k-- > 0;) {
     if (is_set(cancel_)) return false;
     if (!step_back(k)) return false;
@@ -170,16 +180,51 @@ bool AdjointGradient::go_back() {
   return true;
 }
 
-void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
-  gradient->setZero(to_signed(system_.study().tuned.size()));
-  if (!look_at_end() || !go_back()) {
-    gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
+void AdjointGradient::add_derivatives(const State<double>& end, Eigen::VectorXd* gradient) {
   back_->adjoint.add_gradient(*gradient);
   back_->jumps.add_gradient(*gradient);
-  add_boundaries(gradient);
+  add_boundaries(back_->adjoint.adjoint(), &end, gradient);
+}
+
+void AdjointGradient::differentiate_guard(int guard, Eigen::VectorXd* derivatives) {
+  derivatives->setZero(to_signed(system_.study().tuned.size()));
+  back_->final_adjoint.setZero();
+  back_->jumps.start(integrator_.equations().parameters());
+  back_->jumps.add_guard(guard, 1.0, integrator_.initial_state(), integrator_.mode(),
+                         &back_->final_adjoint);
+  back_->jumps.add_gradient(*derivatives);
+  add_boundaries(back_->final_adjoint, nullptr, derivatives);
+}
+
+void AdjointGradient::look_beyond_end(const Eigen::VectorXd& gradient) {
+  if (integrator_.is_ended() || integrator_.guard() < 0 || end_.moves()) return;
+  ModeWatch& watch = integrator_.mode_watch();
+  const std::vector<bool> mode = watch.mode();
+  const SwitchOrigin* const origin =
+      integrator_.equations().compiled().switch_origin(mode, to_index(integrator_.guard()));
+  ModeChange change;
+  if (!watch.cross(integrator_.state(), &integrator_.assembly(), &integrator_.equations(), &change)
+           .ok())
+    return;
+  Eigen::VectorXd behind = Eigen::VectorXd::Zero(gradient.size());
+  take_terminal(change.behind);
+  const bool goes_back =
+      back_->jumps.reverse(run_jump(back_->replay.size() - 1, change), change.before, change.behind,
+                           mode, 0.0, &back_->final_adjoint) &&
+      go_back();
+  if (goes_back) add_derivatives(change.behind, &behind);
+  integrator_.equations().hold(mode);
+  if (goes_back) one_sided_.compare(origin, gradient, behind, false);
+}
+
+void AdjointGradient::gradient(Eigen::VectorXd* gradient) {
+  gradient->setZero(to_signed(system_.study().tuned.size()));
+  if (!look_at_end()) return gradient->fill(std::numeric_limits<double>::quiet_NaN());
+  prepare();
+  if (!go_back()) return gradient->fill(std::numeric_limits<double>::quiet_NaN());
+  add_derivatives(integrator_.state(), gradient);
   if (end_.moves()) *gradient += end_.objective_rate() * end_.time();
+  look_beyond_end(*gradient);
 }
 
 }  // namespace codesign

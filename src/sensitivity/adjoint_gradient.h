@@ -13,6 +13,7 @@
 #include "sensitivity/end_motion.h"
 #include "sensitivity/gradient_engine.h"
 #include "sensitivity/lane_directions.h"
+#include "sensitivity/one_sided.h"
 #include "sensitivity/step_replay.h"
 
 namespace codesign {
@@ -36,7 +37,11 @@ class AdjointGradient final : public GradientEngine {
   /// Empty: the gradient of a study with watched signals is computed by the direct method.
   const Extremes& extremes() const override { return none_; }
   const Statistics& statistics() const override { return integrator_.statistics(); }
-  Warnings warnings() const override { return integrator_.warnings(); }
+  Warnings warnings() const override {
+    Warnings all = integrator_.warnings();
+    append(one_sided_.warnings(), &all);
+    return all;
+  }
   const EventLog* events() const override { return &integrator_.events(); }
   void obey(const std::atomic<bool>* cancel) override {
     integrator_.obey(cancel);
@@ -63,12 +68,24 @@ class AdjointGradient final : public GradientEngine {
   Status jump();
   /// Finds out how the end of the run moves, if it has ended. False if that cannot be computed.
   bool look_at_end();
-  /// The backward pass over all steps. False if cancelled or if a step cannot be repeated.
+  /// The backward pass over all steps from what final_adjoint and the jumps hold. False if
+  /// cancelled or if a step cannot be repeated.
   bool go_back();
+  /// Sets final_adjoint to the gradient of the terminal terms at an end of the run, and the jumps
+  /// to none.
+  void take_terminal(const State<double>& end);
   void prepare();
   bool step_back(int k);
   bool jump_back(const RunJump& jump, int k);
-  void add_boundaries(Eigen::VectorXd* gradient);
+  /// After go_back(): adds the derivatives of all steps, of the start and of the terminal terms.
+  void add_derivatives(const State<double>& end, Eigen::VectorXd* gradient);
+  /// Adds adjoint^T y_rho(0), and with `end` the terminal terms' own derivatives there.
+  void add_boundaries(const VectorX<double>& adjoint, const State<double>* end,
+                      Eigen::VectorXd* gradient);
+  /// The derivatives of a guard by the tuned parameters at the start.
+  void differentiate_guard(int guard, Eigen::VectorXd* derivatives);
+  /// Compares with the gradient of runs that end behind a guard on which this one ends.
+  void look_beyond_end(const Eigen::VectorXd& gradient);
 
   const CompiledSystem& system_;
   const int most_points_;
@@ -77,6 +94,7 @@ class AdjointGradient final : public GradientEngine {
   std::unique_ptr<ControlTangent> control_;  ///< of runs with gradient
   RosenbrockIntegrator::BeforeAccept judge_;
   EndMotion end_;
+  OneSidedGradient one_sided_;
   const Extremes none_;
   bool with_gradient_ = false;
   const std::atomic<bool>* cancel_ = nullptr;

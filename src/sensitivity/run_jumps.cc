@@ -5,18 +5,33 @@
 
 namespace codesign {
 
+namespace {
+
+void take_change(const ModeChange& change, RunJump* jump) {
+  jump->guard = change.guard;
+  if (jump->guard < 0) return;
+  jump->guard_rate = change.guard_rate;
+  jump->rates = change.before.z - change.behind.z;
+  jump->integrand_jump = change.g_before - change.g;
+}
+
+}  // namespace
+
+RunJump run_jump(int point, const ModeChange& change) {
+  RunJump jump;
+  jump.point = point;
+  jump.mode = change.mode;
+  take_change(change, &jump);
+  return jump;
+}
+
 void RunJumps::append(int point, const RosenbrockIntegrator& run) {
   if (count_ == jumps_.size()) jumps_.emplace_back();
   RunJump& jump = jumps_[count_++];
-  const ModeChange& change = run.mode_change();
   jump.point = point;
   jump.mode = run.mode();
   jump.events = run.jump_events();
-  jump.guard = change.guard;
-  if (jump.guard < 0) return;
-  jump.guard_rate = change.guard_rate;
-  jump.rates = change.before.z - change.behind.z;
-  jump.integrand_jump = change.g_before - change.g;
+  take_change(run.mode_change(), &jump);
 }
 
 std::size_t RunJumps::after(int point) const {

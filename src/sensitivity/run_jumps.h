@@ -23,6 +23,9 @@ struct RunJump {
   double integrand_jump = 0.0;  ///< g- - g+; with a guard only
 };
 
+/// A change of the mode alone, without events. @param point number of steps before it.
+RunJump run_jump(int point, const ModeChange& change);
+
 /// The jumps of a run in order of time, for the backward pass of the adjoint. clear() keeps the
 /// memory for the next run.
 class RunJumps {

@@ -24,14 +24,17 @@ StepPath::StepPath(const Layout& layout, int most)
 
 void StepPath::clear() {
   sizes_.clear();
+  starts_.clear();
   tableaus_.clear();
   count_ = 0;
   stride_ = 1;
 }
 
-void StepPath::append(double h, const RosenbrockTableau& tableau, const State<double>& state) {
+void StepPath::append(double h, const RosenbrockTableau& tableau, const State<double>& state,
+                      double next) {
   const int k = size();
   sizes_.push_back(h);
+  starts_.push_back(next);
   tableaus_.push_back(&tableau);
   if (k % stride_ != 0) return;
   if (count_ >= most_) thin_out();

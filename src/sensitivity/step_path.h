@@ -23,13 +23,16 @@ class StepPath {
 
   void clear();
   /// Appends the end of a step of size h [s]; h = 0 for the start. @param tableau the method of the
-  /// step.
-  void append(double h, const RosenbrockTableau& tableau, const State<double>& state);
+  /// step. @param next where the next step begins [s]: the time of `state`, but that behind a break
+  /// time where the step has ended a rounding before it.
+  void append(double h, const RosenbrockTableau& tableau, const State<double>& state, double next);
 
   int size() const { return static_cast<int>(sizes_.size()); }
   /// Size [s] of the step that ended at point k.
   double step_size(int k) const { return sizes_[to_index(k)]; }
 
+  /// Where the step begins that follows point k [s].
+  double next_start(int k) const { return starts_[to_index(k)]; }
   /// The method of the step that ended at point k.
   const RosenbrockTableau& tableau(int k) const { return *tableaus_[to_index(k)]; }
 
@@ -56,7 +59,8 @@ class StepPath {
   void thin_out();
 
   std::size_t most_;
-  std::vector<double> sizes_;  ///< sizes of all steps [s]
+  std::vector<double> sizes_;   ///< sizes of all steps [s]
+  std::vector<double> starts_;  ///< where the steps behind them begin [s]
   std::vector<const RosenbrockTableau*> tableaus_;
   /// the stored points, ascending, in the first `count_` entries; the others are spare memory
   std::vector<Kept> kept_;

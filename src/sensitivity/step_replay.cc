@@ -16,12 +16,12 @@ void StepReplay::start(const RosenbrockIntegrator& run) {
   has_pivots_ = true;
   path_.clear();
   jumps_.clear();
-  path_.append(0.0, run.step().tableau(), run.initial_state());
+  path_.append(0.0, run.step().tableau(), run.initial_state(), run.initial_state().t);
 }
 
 void StepReplay::store_step(const RosenbrockIntegrator& run) {
   const RosenbrockStep<double>& step = run.step();
-  path_.append(step.step_size(), step.tableau(), step.unprojected());
+  path_.append(step.step_size(), step.tableau(), step.unprojected(), step.state().t);
 }
 
 void StepReplay::store_jump(const RosenbrockIntegrator& run) {
@@ -57,6 +57,7 @@ bool StepReplay::take_up(int k) {
   } else if (!step_.resume(point_)) {
     return false;
   }
+  step_.set_time(path_.next_start(k));
   // Turn counts follow the nearest previous positions, in the backward pass as well.
   step_.track_turns();
   const RunJump* const jump = jumps_.at(k);

@@ -21,11 +21,15 @@ objective:
     - {signal: shoulder/acceleration, weight: 0.01}
 )";
 
-std::string servo_with(const std::string& keys) {
-  return "controllers: {servo: {type: pid, input: shoulder/position, setpoint: 0.3, output: "
-         "shoulder, gains: {p: \"${Kp}\", d: \"${Kd}\"}" +
-         keys + "}}\n";
+std::string servo_with(const std::string& keys, const std::string& setpoint = "0.3") {
+  return "controllers: {servo: {type: pid, input: shoulder/position, setpoint: " + setpoint +
+         ", output: shoulder, gains: {p: \"${Kp}\", d: \"${Kd}\"}" + keys + "}}\n";
 }
+
+/// Its slope, and with it the effort of the d gain, jumps at given instants.
+const char* const kPolygon =
+    "{type: waypoints, times: [0.1, 0.25, 0.4], positions: [0.9, 0.3, \"${edge}\"], "
+    "interpolation: linear}";
 
 /// Jumps by a position and by a time, and a kink.
 const char* const kLoads = R"(loads:
@@ -67,6 +71,7 @@ std::vector<HybridCase> hybrid_cases() {
                     until = "until: \"${shoulder/position < 0.8*edge or t > 0.55}\"\n";
   return {{"switched_arm", arm, lasting + kArm + servo_with("") + kLoads},
           {"switched_arm_without_friction", free_arm, lasting + kArm + servo_with("") + kLoads},
+          {"arm_along_a_polygon", free_arm, lasting + kArm + servo_with("", kPolygon) + kLoads},
           {"sampled_arm", arm, lasting + kArm + servo_with(sampled)},
           {"sampled_and_switched_arm", free_arm, lasting + kArm + servo_with(sampled) + kLoads},
           {"arm_that_ends", free_arm, lasting + until + kArm + servo_with("") + kLoads},

@@ -15,8 +15,8 @@
 namespace codesign {
 namespace {
 
-/// 1 kg that slides along x for 2 s.
-Evaluation slid(const std::string& study) {
+/// 1 kg that slides along x for 2 s. @param solver keys of the block.
+Evaluation slid(const std::string& study, const std::string& solver = "") {
   const RobotDescription robot = read_urdf({"slide.urdf", R"(<robot name="slider">
   <link name="ground"/>
   <link name="body"><inertial><mass value="1"/>
@@ -24,8 +24,9 @@ Evaluation slid(const std::string& study) {
   <joint name="slide" type="prismatic"><parent link="ground"/><child link="body"/>
     <axis xyz="1 0 0"/><limit lower="-1000" upper="1000" effort="50" velocity="1000"/></joint>
 </robot>)"});
-  const auto system =
-      make_system(robot, read_study({"study.yaml", "duration: 2.0\n" + study}, robot));
+  const auto system = make_system(
+      robot,
+      read_study({"study.yaml", "duration: 2.0\nsolver: {" + solver + "}\n" + study}, robot));
   return evaluator_of(system).evaluate_design(system->parameters(), true, nullptr);
 }
 
@@ -41,14 +42,17 @@ void expect_parts(const std::string& text, const std::vector<const char*>& parts
 
 // v(2) = 2 for all ts from 2 on, and 2 ts - 2 before: (v(2))^2 has the derivatives 0 and 8.
 TEST(OneSidedGradient, IsSaidWhereARunEndsOnAGuard) {
-  const Evaluation run = slid(R"(
+  for (const char* const solver : {"gradient: direct", "gradient: adjoint"}) {
+    const Evaluation run = slid(R"(
 loads: [{joint: slide, effort: "${t < ts ? 1 : -1}"}]
 parameters: {ts: {initial: 2, lower: 0.1, upper: 3}}
-objective: {terminal: [{signal: slide/velocity}]})");
-  ASSERT_TRUE(run.status.ok()) << describe(run.status);
-  EXPECT_NEAR(run.gradient[0], 0.0, 1e-7);
-  expect_parts(said(run, "one_sided_gradient"),
-               {"loads[0].effort, \"t < ts\"", "\"ts\" is 0 for", "8 for runs that pass it"});
+objective: {terminal: [{signal: slide/velocity}]})",
+                                solver);
+    ASSERT_TRUE(run.status.ok()) << describe(run.status);
+    EXPECT_NEAR(run.gradient[0], 0.0, 1e-7);
+    expect_parts(said(run, "one_sided_gradient"),
+                 {"loads[0].effort, \"t < ts\"", "\"ts\" is 0 for", "8 for runs that pass it"});
+  }
 }
 
 TEST(OneSidedGradient, IsSaidWhereAFinalSignalMovesWithTheGuard) {
@@ -67,8 +71,9 @@ initial_state: {slide: {position: "${x0}", velocity: 1.0}}
 loads: [{joint: slide, effort: "${slide/position > 0.3 ? -0.5 : 0}"}]
 parameters: {x0: {initial: 0.3, lower: -1, upper: 1}}
 objective: {terminal: [{signal: slide/position}]})";
-  const Evaluation run = slid(study);
+  const Evaluation run = slid(study), adjoint = slid(study, "gradient: adjoint");
   ASSERT_TRUE(run.status.ok()) << describe(run.status);
+  EXPECT_EQ(said(adjoint, "one_sided_gradient"), said(run, "one_sided_gradient"));
   // x(2) = x0 + 2 - 1 behind the threshold; from before it the derivative is 1 - 0.5 * 2 = 0.
   EXPECT_NEAR(run.gradient[0], 2.0 * 1.3, 1e-6);
   expect_parts(said(run, "one_sided_gradient"),

@@ -36,7 +36,8 @@ State<double> numbered_with_turns(double first, double turns) {
 StepPath path_of(int points, int most) {
   StepPath path(layout(), most);
   for (int k = 0; k < points; ++k)
-    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
+    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k),
+                100.0 * k + 0.5);
   return path;
 }
 
@@ -58,6 +59,7 @@ TEST(StepPath, GivesBackWhatItTook) {
   ASSERT_EQ(path.size(), 3);
   for (int k : {2, 1, 0}) {
     EXPECT_EQ(path.step_size(k), 0.25 * k);
+    EXPECT_EQ(path.next_start(k), 100.0 * k + 0.5);
     EXPECT_EQ(path.kept_before(k), k);
     expect_point(path, k);
   }
@@ -102,7 +104,8 @@ TEST(StepPath, BeginsAnewWithEveryPoint) {
   StepPath path = path_of(100, 10);
   path.clear();
   for (int k = 0; k < 10; ++k)
-    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k));
+    path.append(0.25 * k, k % 2 == 0 ? rodas4() : dopri5(), numbered_with_turns(100.0 * k, k),
+                100.0 * k + 0.5);
   for (int k = 0; k < 10; ++k) expect_point(path, k);
 }
 
