@@ -20,7 +20,7 @@ HEAD = "| block or key | keys in it | page |\n|---|---|---|\n"
 
 
 def pages():
-    return sorted([*ROOT.glob("*.md"), *(ROOT / "doc").rglob("*.md"), *(ROOT / "gallery").rglob("*.md")])
+    return sorted([*ROOT.glob("*.md"), *(ROOT / "doc").rglob("*.md"), *(ROOT / "gallery").rglob("*.md"), *(ROOT / "benchmark").rglob("*.md")])
 
 
 def without_code(text):
