@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Replaces the tables of a document by new ones of the same names.
+"""Replaces the tables of documents by new ones of the same names.
 
-Usage: update_tables.py DOCUMENT TABLES. A table stands between the lines `<!-- table: NAME -->` and `<!-- end: NAME -->` in both files. A table that
-the document has no place for is an error; one that is not among the new tables stays as it is.
+Usage: update_tables.py DOCUMENT... TABLES. A table stands between the lines `<!-- table: NAME -->` and `<!-- end: NAME -->` in all files. A table that
+no document has a place for is an error; one that is not among the new tables stays as it is.
 """
 import pathlib
 import re
@@ -20,13 +20,15 @@ def updated(document, tables):
 
 
 def main():
-    if len(sys.argv) != 3:
+    if len(sys.argv) < 3:
         sys.exit(__doc__)
-    path = pathlib.Path(sys.argv[1])
-    text, homeless = updated(path.read_text(encoding="utf-8"), pathlib.Path(sys.argv[2]).read_text(encoding="utf-8"))
-    if homeless:
-        sys.exit(f"{path}: no place for the tables {', '.join(homeless)}")
-    path.write_text(text, encoding="utf-8")
+    *documents, tables = map(pathlib.Path, sys.argv[1:])
+    new = tables.read_text(encoding="utf-8")
+    made = {path: updated(path.read_text(encoding="utf-8"), new) for path in documents}
+    if homeless := set.intersection(*(set(names) for _, names in made.values())):
+        sys.exit(f"{', '.join(map(str, documents))}: no place for the tables {', '.join(sorted(homeless))}")
+    for path, (text, _) in made.items():
+        path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -3,8 +3,8 @@
 """Measures this package and others at the same error of the same tasks, in one run; prints tables.
 
 Usage: race.py [--markdown] [--folder FOLDER] [--rounds N] [--limit SECONDS] [TASK...]. Called by `tools/benchmark peers`, after the build.
-FOLDER (build/peers) gets a virtual environment with the others from PyPI, the models, and with --markdown the tables for the documents:
-performance.md and README.md. Without PyPI it says so and measures the rest.
+FOLDER (build/peers) gets a virtual environment with the others from PyPI, the models, and with --markdown tables.md, the tables for the
+documents. Without PyPI it says so and measures the rest.
 Ctrl-C ends the sweeps; the tables then have the tasks that are done.
 
 Each program is a process of its own that answers requests. First, each of its methods goes from loose settings to tight ones; then the settings
@@ -214,23 +214,20 @@ class Race:
 
 
 def tables_of(races):
-    """The table of times, that of settings, and the short one of the smallest errors."""
+    """The table of times, and that of settings."""
     others = [code.name for code in codes.CODES if code.name != codes.OWN]
-    times, settings, short = [], [], []
+    times, settings = [], []
     for race in races:
         for error in race.task.errors:
             results = {name: race.result(name, error) for name in [codes.OWN] + others}
             seconds = {name: point.seconds if point else None for name, (point, _) in results.items()}
             reasons = {name: race.reason(name, error) for name in results}
             times.append([race.task.title, f"{error:.0e}"] + table.row_of_times(seconds, codes.OWN, others, reasons))
-            if error == min(race.task.errors):
-                short.append([race.task.title, f"{error:.0e}"] + table.row_of_ratios(seconds, codes.OWN, others))
             for name, (point, method) in results.items():
                 if point:
                     settings.append([race.task.name, f"{error:.0e}", name, method, f"{point.setting:.1e}", f"{point.steps:.0f}", table.milliseconds(point.seconds)])
     return ((["task", "error", codes.OWN] + others + ["fastest"], times),
-            (["task", "error", "program", "method", "tolerance or step", "steps", "processor time"], settings),
-            (["task", "error", codes.OWN] + [f"{name}, times" for name in others], short))
+            (["task", "error", "program", "method", "tolerance or step", "steps", "processor time"], settings))
 
 
 def processor():
@@ -270,17 +267,16 @@ def main():
         for race in races:
             race.measure_again()
         load.append(os.getloadavg()[0])
-    times, settings, short = tables_of(races)
+    times, settings = tables_of(races)
     run = [[time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), f"{processor()}, {os.cpu_count()} cores", f"{min(load):.1f} to {max(load):.1f}",
             str(arguments.rounds)]]
     tables = (("peers", "Processor time at the same error", times), ("peers_settings", "Best settings", settings),
               ("peers_versions", "Programs", versions_table(versions, silent)),
               ("peers_run", "The run", (["date", "machine", "load average", "rounds"], run)))
     if arguments.markdown:
-        for path, parts in (("performance.md", tables), ("README.md", [("peers_short", "", short)])):
-            text = "\n".join(table.to_markdown(name, columns, rows) for name, _, (columns, rows) in parts)
-            (arguments.folder / path).write_text(text, encoding="utf-8")
-            print(text, flush=True)
+        text = "\n".join(table.to_markdown(name, columns, rows) for name, _, (columns, rows) in tables)
+        (arguments.folder / "tables.md").write_text(text, encoding="utf-8")
+        print(text, flush=True)
     else:
         print("\n".join(table.to_text(title, columns, rows) for _, title, (columns, rows) in tables), flush=True)
     for program in programs.values():

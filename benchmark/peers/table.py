@@ -82,17 +82,6 @@ def row_of_times(seconds, own, others, reasons):
     return cells + [fastest if fastest == own else f"**{fastest}**"]
 
 
-def row_of_ratios(seconds, own, others):
-    """The same for README: our time, and ratios alone; a ratio below 1 is a peer that wins."""
-    mine = seconds.get(own)
-    cells = [milliseconds(mine) if mine is not None else "-"]
-    for name in others:
-        theirs = seconds.get(name)
-        ratio = theirs / mine if mine is not None and theirs is not None else math.inf
-        cells.append(f"**{three_digits(ratio)}**" if ratio < 1.0 else three_digits(ratio))
-    return cells
-
-
 def to_markdown(name, columns, rows):
     """A table for doc/performance.md, between the markers of update_tables.py."""
     lines = [f"<!-- table: {name} -->", "| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]

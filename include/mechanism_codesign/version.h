@@ -3,7 +3,7 @@
 
 namespace codesign {
 
-/// The version of this package, such as "0.2.0": `<version>` of package.xml at the time of the
+/// The version of this package, such as "0.3.0": `<version>` of package.xml at the time of the
 /// build. The text lives as long as the program.
 const char* version();
 

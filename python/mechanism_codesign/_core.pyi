@@ -10,7 +10,7 @@ Source = Tuple[str, Optional[str]]
 Tell = Optional[Callable[[str, Dict[str, Any]], object]]
 
 def version() -> str:
-    """The version of the package, such as "0.2.0"."""
+    """The version of the package, such as "0.3.0"."""
 
 def numbers(values: npt.ArrayLike, name: str, /) -> Array:
     """The values as real numbers, shape (n,). Raises TypeError or ValueError with this name."""

@@ -290,7 +290,7 @@ const CommandHelp kCommands[] = {
 
 constexpr const char* kOtherCommands =
     R"(  help [COMMAND]           this text, or the options of one command
-  --version                the version of this program, as "codesign 0.2.0"
+  --version                the version of this program, as "codesign 0.3.0"
 )";
 
 constexpr const char* kSharedOptions =

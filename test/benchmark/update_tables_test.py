@@ -2,10 +2,13 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """Tests of benchmark/update_tables.py."""
 import pathlib
+import subprocess
 import sys
+import tempfile
 import unittest
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "benchmark"))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "benchmark"))
 import update_tables  # noqa: E402
 
 
@@ -26,10 +29,29 @@ class UpdatedTest(unittest.TestCase):
         self.assertEqual(homeless, ["c"])
 
     def test_the_documents_tables_are_whole(self):
-        document = (pathlib.Path(update_tables.__file__).resolve().parents[1] / "doc" / "performance.md").read_text(encoding="utf-8")
-        self.assertEqual(document.count("<!-- table: "), len(update_tables.TABLE.findall(document)))
-        self.assertEqual(document.count("<!-- end: "), len(update_tables.TABLE.findall(document)))
-        self.assertGreater(len(update_tables.TABLE.findall(document)), 10)
+        names = []
+        for path, least in (("doc/performance.md", 10), ("benchmark/sweeps.md", 4)):
+            document = (ROOT / path).read_text(encoding="utf-8")
+            found = update_tables.TABLE.findall(document)
+            self.assertEqual(document.count("<!-- table: "), len(found))
+            self.assertEqual(document.count("<!-- end: "), len(found))
+            self.assertGreater(len(found), least)
+            names += found
+        self.assertEqual(len(names), len(set(names)), "a table has one place")
+
+    def test_a_table_needs_a_place_in_one_of_the_documents(self):
+        with tempfile.TemporaryDirectory() as folder:
+            first, second, tables = (pathlib.Path(folder) / name for name in ("first.md", "second.md", "tables.md"))
+            first.write_text(table("a", "old"), encoding="utf-8")
+            second.write_text(table("b", "old"), encoding="utf-8")
+            program = [sys.executable, "-B", ROOT / "benchmark/update_tables.py", first, second, tables]
+            tables.write_text(table("a", "new") + "\n" + table("b", "new"), encoding="utf-8")
+            self.assertEqual(subprocess.run(program, check=False).returncode, 0)
+            self.assertEqual([path.read_text(encoding="utf-8") for path in (first, second)], [table("a", "new"), table("b", "new")])
+            tables.write_text(table("a", "newest") + "\n" + table("c", "new"), encoding="utf-8")
+            failed = subprocess.run(program, check=False, capture_output=True, text=True)
+            self.assertEqual((failed.returncode, failed.stderr.endswith("no place for the tables c\n")), (1, True))
+            self.assertEqual(first.read_text(encoding="utf-8"), table("a", "new"))
 
 
 if __name__ == "__main__":

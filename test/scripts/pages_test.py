@@ -1,24 +1,26 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The pages: their links lead somewhere, doc/study.md lists every key, and doc/messages.md, doc/warnings.md and doc/statuses.md every sentence and code of the sources. Usage: pages_test.py [--write]
+"""The pages: their links lead somewhere, doc/study.md lists every key, every message of the sources says what to do or has a row in doc/messages.md, and every code one in doc/warnings.md or doc/statuses.md. Usage: pages_test.py [--write]
 
---write puts the table of all keys into doc/study.md, and the sentences into doc/messages.md.
+--write puts the table of all keys into doc/study.md, and the remedies of messages into doc/messages.md.
 """
 import functools
 import html
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import re
-import subprocess
 import sys
 import unittest
+import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEAD = "| block or key | keys in it | page |\n|---|---|---|\n"
 
 
 def pages():
-    return sorted([*ROOT.glob("*.md"), *(ROOT / "doc").rglob("*.md"), *(ROOT / "gallery").rglob("*.md")])
+    return sorted([*ROOT.glob("*.md"), *(ROOT / "doc").rglob("*.md"), *(ROOT / "gallery").rglob("*.md"), *(ROOT / "benchmark").rglob("*.md")])
 
 
 def without_code(text):
@@ -70,9 +72,22 @@ def study():
 
 
 @functools.lru_cache(maxsize=None)
+def message_index():
+    """The program tools/message_index as a module, which reads the sources once for all tests."""
+    loader = importlib.machinery.SourceFileLoader("message_index", str(ROOT / "tools/message_index"))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+    with unittest.mock.patch("sys.dont_write_bytecode", True):
+        loader.exec_module(module)
+    return module
+
+
+def remedies():
+    return (ROOT / "doc/remedies.txt").read_text()
+
+
 def messages():
     """doc/messages.md as the sources have it."""
-    return subprocess.run([sys.executable, "-B", ROOT / "tools/message_index"], capture_output=True, text=True, check=True).stdout
+    return "\n".join(message_index().index(remedies())[0]).rstrip() + "\n"
 
 
 def sources():
@@ -107,29 +122,43 @@ class Pages(unittest.TestCase):
         for page in (ROOT / "doc/study").glob("*.md"):
             self.assertIn(f"](study/{page.name})", text)
 
-    def test_every_message_is_in_the_index(self):
+    def test_the_page_of_messages_is_that_of_the_sources(self):
         page, right = (ROOT / "doc/messages.md").read_text(), messages()
         differing = set(page.splitlines()) ^ set(right.splitlines())
         self.assertTrue(page == right, f"pages_test.py --write; of these lines page and sources differ: {sorted(differing)[:5]}")
 
     def test_every_message_has_a_remedy(self):
         """An allowed value, a code with a page, or an entry of doc/remedies.txt; and each entry has its message."""
-        check = subprocess.run([sys.executable, "-B", ROOT / "tools/message_index", "--check"], capture_output=True, text=True, check=False)
-        self.assertEqual((check.stdout.split("\n")[:5], check.returncode), (["", ""], 0), "correct doc/remedies.txt")
-        rows = [re.split(r"(?<!\\) \| ", line) for line in messages().splitlines() if line.startswith(("| `", "| ``"))]
-        self.assertGreater(len(rows), 900)
-        self.assertEqual([row[0] for row in rows if not row[1].strip()], [])
+        _, faults, listed = message_index().index(remedies())
+        self.assertEqual(faults[:5], [], "correct doc/remedies.txt")
+        self.assertGreater(len(listed), 1000)
 
-    def test_the_index_has_what_a_user_sees(self):
-        index = (ROOT / "doc/messages.md").read_text().splitlines()
-        for row in ("| `nothing is uncertain` | `at least one PARAMETER: {uniform: [lower, upper]}` |", "| `more than \N{HORIZONTAL ELLIPSIS} steps (solver.maximum_steps)` | [too_many_steps](statuses.md) |",
-                    "| `the slope is \N{HORIZONTAL ELLIPSIS} of the start's` |",
+    def test_the_check_finds_what_is_missing(self):
+        """A message of which nobody has said anything, one that says itself what it needs, patterns that excuse, codes and messages that do not exist."""
+        text = remedies()
+        clear = "\n… takes no value\n"
+        self.assertEqual(text.count(clear), 1)
+        for changed, fault in ((text.replace(clear, "\n"), "Command line: no remedy for: … takes no value"),
+                               (text.replace(clear, "\n… takes no *\n"), "Command line: a pattern is not clear by itself, write the messages: … takes no *"),
+                               (text.replace(clear, clear + "the name of the new folder is not given\n"),
+                                "Command line: has an allowed value or a code, and needs no entry: the name of the new folder is not given"),
+                               (text.replace(clear, clear + "  [no_such_code](warnings.md)\n"), "Command line: no row for the code no_such_code: … takes no value"),
+                               (text.replace(clear, clear + "nobody says this\n"), "Command line: no message for the remedy of: nobody says this")):
+            self.assertIn(fault, message_index().index(changed)[1])
+
+    def test_what_a_user_sees_is_found(self):
+        listed = message_index().index(remedies())[2]
+        for row in ("Study: runs, samples, starts: nothing is uncertain | `at least one PARAMETER: {uniform: [lower, upper]}` |",
+                    "Runs and gradients: more than … steps (solver.maximum_steps) | [too_many_steps](statuses.md) |",
                     # of Python: raised, told the parser of arguments, put together before, printed to stderr
-                    "| `identify() with arrays needs their times` | `identify(time, position=..., effort=...)`, ", "| `--port: out of range` | `0 to 65535` | scripts/panel, scripts/watch |",
-                    "| `\N{HORIZONTAL ELLIPSIS} = \N{HORIZONTAL ELLIPSIS} was not taken; there is no such parameter; the warnings of the run say why` | a value within its bounds ",
-                    "| `\N{HORIZONTAL ELLIPSIS} cells, the first line has \N{HORIZONTAL ELLIPSIS}; the table is damaged` | the folder of a running or finished ",
-                    "| `a file of this job is damaged, or written by another version of this program; run the job again` | the file that the message names "):
-            self.assertTrue(any(line.startswith(row) for line in index), row)
+                    "Python: identify() with arrays needs their times | = |", "Panel, page of a running search: --port: out of range | `0 to 65535` | scripts/panel, scripts/watch"):
+            self.assertTrue(any(line.startswith(row) for line in listed), row)
+        page = (ROOT / "doc/messages.md").read_text()
+        for row in ("the slope is … of the start's` |", "… = … was not taken; there is no such parameter; the warnings of the run say why` | a value within its bounds ",
+                    "… cells, the first line has …; the table is damaged` | the folder of a running or finished ",
+                    "| `a file of this job is damaged, or written by another version of this program; run the job again`"):
+            self.assertIn(row, page)
+        self.assertNotIn("nothing is uncertain", page, "the message says what is allowed")
 
     def test_every_warning_has_a_row(self):
         code = sources()
