@@ -116,6 +116,11 @@ class Pages(unittest.TestCase):
                             known[place] = anchors(place)
                         self.assertIn(anchor, known[place])
 
+    def test_every_decision_is_in_the_index_once(self):
+        index = (ROOT / "doc/decisions/README.md").read_text()
+        listed = re.findall(r"^- \d+: \[.*\]\((\S+\.md)\)", index, re.MULTILINE)
+        self.assertEqual(sorted(listed), sorted(path.name for path in (ROOT / "doc/decisions").glob("0*.md")))
+
     def test_the_study_page_lists_all_keys(self):
         text, table, right = study()
         self.assertEqual(table, right, "pages_test.py --write")
