@@ -136,34 +136,19 @@ void visit_friction_numbers(const Visit& visit, Values*... of) {
   visit(R{"bristle_damping"}.if_missing(10.0).used_by(U::kBristles).also_of_gears(),
         of->bristle_damping...);
   visit(R{"dwell_time"}.if_missing(2.0).used_by(U::kDwelling).also_of_gears(), of->dwell_time...);
-  visit(R{"mu_static_backward"}
-            .with_zero()
-            .if_missing(M::kMuStatic)
-            .used_by(U::kDirectional)
-            .against_the_axis()
-            .in_form(F::kCoefficients),
-        of->mu_static_backward...);
-  visit(R{"mu_dynamic_backward"}
-            .with_zero()
-            .if_missing(M::kMuDynamic)
-            .used_by(U::kDirectional)
-            .against_the_axis()
-            .in_form(F::kCoefficients),
+  const auto backward = [](const char* attribute, M missing, F form) {
+    return R{attribute}
+        .with_zero()
+        .if_missing(missing)
+        .used_by(U::kDirectional)
+        .in_form(form)
+        .against_the_axis();
+  };
+  visit(backward("mu_static_backward", M::kMuStatic, F::kCoefficients), of->mu_static_backward...);
+  visit(backward("mu_dynamic_backward", M::kMuDynamic, F::kCoefficients),
         of->mu_dynamic_backward...);
-  visit(R{"coulomb_backward"}
-            .with_zero()
-            .if_missing(M::kCoulomb)
-            .used_by(U::kDirectional)
-            .against_the_axis()
-            .in_form(F::kDirect),
-        of->mu_dynamic_backward...);
-  visit(R{"static_backward"}
-            .with_zero()
-            .if_missing(M::kStatic)
-            .used_by(U::kDirectional)
-            .against_the_axis()
-            .in_form(F::kDirect),
-        of->mu_static_backward...);
+  visit(backward("coulomb_backward", M::kCoulomb, F::kDirect), of->mu_dynamic_backward...);
+  visit(backward("static_backward", M::kStatic, F::kDirect), of->mu_static_backward...);
   visit(R{"viscous_backward"}.with_zero().if_missing(M::kViscous).against_the_axis(),
         of->viscous_backward...);
 }
