@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""The pages: their links lead somewhere, doc/study.md lists every key, every message of the sources says what to do or has a row in doc/messages.md, and every code one in doc/warnings.md or doc/statuses.md. Usage: pages_test.py [--write]
+"""The pages: their links lead somewhere, doc/study.md lists every key, doc/theory.md every equation, every message of the sources says what to do or has a row in doc/messages.md, and every code one in doc/warnings.md or doc/statuses.md. Usage: pages_test.py [--write]
 
---write puts the table of all keys into doc/study.md, and the remedies of messages into doc/messages.md.
+--write puts the table of all keys into doc/study.md, that of equations into doc/theory.md, and the remedies of messages into doc/messages.md.
 """
 import functools
 import html
@@ -17,6 +17,7 @@ import unittest.mock
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HEAD = "| block or key | keys in it | page |\n|---|---|---|\n"
+EQUATIONS = "| chapter | equations |\n|---|---|\n"
 
 
 def pages():
@@ -27,12 +28,17 @@ def without_code(text):
     return re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
 
 
+def anchor_of(heading):
+    """The anchor of a heading that no other heading of the page equals, by the rule of GitHub."""
+    text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "")
+    return re.sub(r"[^\w\- ]", "", html.unescape(text).strip().lower()).replace(" ", "-")
+
+
 def anchors(path):
     """The anchors of a page's headings, by the rule of GitHub."""
     found = set()
     for heading in re.findall(r"^#+ (.*)", without_code(path.read_text()), re.MULTILINE):
-        text = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).replace("`", "")
-        anchor = re.sub(r"[^\w\- ]", "", html.unescape(text).strip().lower()).replace(" ", "-")
+        anchor = anchor_of(heading)
         number = 0
         while (unique := f"{anchor}-{number}" if number else anchor) in found:
             number += 1
@@ -69,6 +75,25 @@ def study():
     table = re.search(re.escape(HEAD) + r"(\|.*\n)+", text).group(0)
     linked = dict.fromkeys(re.findall(r"\[([^\]]+)\]\(study/(\w+)\.md\) \|$", table, re.MULTILINE))
     return text, table, table_of_keys(linked)
+
+
+def equations_of(chapter):
+    """[(number, anchor)] of its headings and formulas: [("21a", "21a-watched-signals"), ("21b", "21a-watched-signals"), ...]."""
+    found = []
+    for heading, text in re.findall(r"^## (\([^\n]*)\n(.*?)(?=^## |\Z)", chapter.read_text(), re.DOTALL | re.MULTILINE):
+        numbers = re.findall(r"^\((\w+)\)", heading) + re.findall(r"\\qquad \((\w+'?)\)\s*\$\$", text)
+        found += [(number, anchor_of(heading)) for number in dict.fromkeys(numbers)]
+    return found
+
+
+def theory():
+    """(the page doc/theory.md, its table of equations as it is, and as it should be)"""
+    text = (ROOT / "doc/theory.md").read_text()
+    table = re.search(re.escape(EQUATIONS) + r"(\|.*\n)*", text).group(0)
+    linked = {name: title for title, name in reversed(re.findall(r"\[([^\]]+)\]\(theory/(\w+)\.md\)", text[:text.index(EQUATIONS)]))}
+    rows = [f"| [{title}](theory/{name}.md) | {', '.join(f'[({number})](theory/{name}.md#{anchor})' for number, anchor in equations_of(ROOT / f'doc/theory/{name}.md'))} |\n"
+            for name, title in reversed(linked.items())]
+    return text, table, EQUATIONS + "".join(rows)
 
 
 @functools.lru_cache(maxsize=None)
@@ -126,6 +151,16 @@ class Pages(unittest.TestCase):
         self.assertEqual(table, right, "pages_test.py --write")
         for page in (ROOT / "doc/study").glob("*.md"):
             self.assertIn(f"](study/{page.name})", text)
+
+    def test_the_theory_page_leads_to_all_equations(self):
+        """Those of its chapters, and those that comments cite."""
+        text, table, right = theory()
+        self.assertEqual(table, right, "pages_test.py --write")
+        for chapter in (ROOT / "doc/theory").glob("*.md"):
+            self.assertIn(f"](theory/{chapter.name})", text)
+        cited = set(re.findall(r"doc/theory\.md(?:\s|///?)+\((\w+)\)", sources()))
+        self.assertGreater(len(cited), 70)
+        self.assertEqual(cited - set(re.findall(r"\[\((\w+)\)\]", table)), set())
 
     def test_the_page_of_messages_is_that_of_the_sources(self):
         page, right = (ROOT / "doc/messages.md").read_text(), messages()
@@ -187,6 +222,8 @@ if __name__ == "__main__":
     if sys.argv[1:] == ["--write"]:
         page, old, new = study()
         (ROOT / "doc/study.md").write_text(page.replace(old, new))
+        page, old, new = theory()
+        (ROOT / "doc/theory.md").write_text(page.replace(old, new))
         (ROOT / "doc/messages.md").write_text(messages())
     else:
         unittest.main()
