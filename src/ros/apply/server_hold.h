@@ -20,7 +20,7 @@ namespace codesign {
 class ServerHold {
  public:
   /// @param node whose callback queue is served by another thread.
-  explicit ServerHold(ros::NodeHandle node) : node_(std::move(node)) {}
+  explicit ServerHold(const ros::NodeHandle& node) : node_(node) {}
 
   /// Takes a server, until the hold is destroyed. Several programs that take several servers take
   /// them in the same order, that of their names.

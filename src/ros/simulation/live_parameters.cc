@@ -36,6 +36,7 @@ void want(const std::vector<Parameter>& parameters, const std::string& name,
                                   [&](const Parameter& each) { return each.name == name; });
   if (found == parameters.end()) {
     std::vector<std::string> known;
+    known.reserve(parameters.size());
     for (const Parameter& each : parameters) known.push_back(each.name);
     wanted->warnings.push_back(
         {"parameter_refused",
