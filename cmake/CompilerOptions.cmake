@@ -51,8 +51,9 @@ function(codesign_optimize target)
       list(APPEND hot_options -mmove-max=256 -mstore-max=256)
     endif()
   endif()
+  # Whatever instantiates a template of the time loop belongs to them: the linker keeps one copy, and it may be the slow one.
   set(hot sparse/lu_schedule equations/iteration_matrix
-    integration/rosenbrock_step integration/run_watch sensitivity/tangent_step)
+    integration/rosenbrock_step integration/dense_output integration/run_watch sensitivity/tangent_step)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   foreach(peer kernel_tables kernel_program_tables articulated_body robot_peers)

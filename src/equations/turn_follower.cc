@@ -63,7 +63,11 @@ void TurnFollower<T>::add_ways() {
     note_ways(pairs[p].body_j, &way);
     drop_pairs(&way.turns);
     drop_pairs(&way.free);
-    if (!way.turns.empty() || !way.free.empty()) ways_.push_back(std::move(way));
+    if (way.turns.empty() && way.free.empty()) continue;
+    // The length of four changes is at most twice the largest of them.
+    farthest_ = std::max(farthest_, static_cast<double>(way.turns.size()) +
+                                        2.0 * kTurnOfBody * static_cast<double>(way.free.size()));
+    ways_.push_back(std::move(way));
   }
 }
 

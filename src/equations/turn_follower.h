@@ -33,6 +33,7 @@ class TurnFollower {
   /// @param equations must hold the design.
   void follow(const State<T>& from, Equations<T>* equations, State<T>* to) {
     to->turns = from.turns;
+    if (ways_.empty() || !(farthest_ * largest_change(from, *to) > kSure)) return;
     const double way = longest_way(from, *to);
     if (way > kSure) count(from, way, equations, to);
   }
@@ -49,6 +50,9 @@ class TurnFollower {
 
   void add_ways();
   void note_ways(int body, Way* way) const;
+  static double largest_change(const State<T>& from, const State<T>& to) {
+    return (to.q - from.q).real().cwiseAbs().maxCoeff();
+  }
   /// Upper bound [rad] of the turn of any cut pair on the line.
   double longest_way(const State<T>& from, const State<T>& to) const;
   void count(const State<T>& from, double way, Equations<T>* equations, State<T>* to);
@@ -57,6 +61,7 @@ class TurnFollower {
 
   const System& system_;
   std::vector<Way> ways_;
+  double farthest_ = 0.0;   ///< longest_way() is at most this times the largest change of q
   std::vector<int> slots_;  ///< entries of State::turns that are references of turns
   std::vector<int> free_;   ///< in q, first Euler parameter of every free body
   State<T> between_;        ///< on the line

@@ -8,7 +8,8 @@
 namespace codesign {
 
 template <class T>
-void RosenbrockStep<T>::interpolate(double theta, const State<T>& from, const State<T>& to,
+void RosenbrockStep<T>::interpolate(double theta, const RosenbrockTableau::Row& weights,
+                                    const State<T>& from, const State<T>& to,
                                     State<T>* state) const {
   *state = from;
   const T left(1.0 - theta), right(theta);
@@ -19,7 +20,6 @@ void RosenbrockStep<T>::interpolate(double theta, const State<T>& from, const St
   blend(from.v, to.v, &state->v);
   blend(from.s, to.s, &state->s);
   blend(from.z, to.z, &state->z);
-  const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
   combine(at_, *state, In<double>(weights).first(tableau_->stages), increments_, state);
   if (tableau_->is_explicit())
     combine(from.z, In<double>(rate_weights(*tableau_, theta)).first(tableau_->stages), increments_,
@@ -30,15 +30,15 @@ void RosenbrockStep<T>::interpolate(double theta, const State<T>& from, const St
 
 template <class T>
 void RosenbrockStep<T>::interpolate(double theta, State<T>* state, T* psi) const {
-  interpolate(theta, previous_, state_, state);
-  *psi = T(1.0 - theta) * previous_psi_ + T(theta) * psi_;
   const RosenbrockTableau::Row weights = dense_weights(*tableau_, theta);
+  interpolate(theta, weights, previous_, state_, state);
+  *psi = T(1.0 - theta) * previous_psi_ + T(theta) * psi_;
   for (std::size_t j = 0; j < count(); ++j) *psi += T(weights[j]) * increments_[j][at_.psi()];
 }
 
 template <class T>
 void RosenbrockStep<T>::interpolate_attempt(double theta, State<T>* state) const {
-  interpolate(theta, state_, end_, state);
+  interpolate(theta, dense_weights(*tableau_, theta), state_, end_, state);
 }
 
 template <class T>

@@ -31,45 +31,48 @@ struct IncrementLayout {
 
 namespace internal {
 
+/// to = from + sum of factors[j] parts[j], with parts from entry `first` on.
 template <std::size_t count, class T>
-void combine_parts(const T* from, const double* factors, const T* const* parts, int length, T* to) {
+inline void combine_parts(const T* from, const double* factors, const T* const* parts, int first,
+                          int length, T* to) {
   int k = 0;
   if constexpr (std::is_same_v<T, double>) {
     using Four = Lanes<4>::Four;
     for (; k + 4 <= length; k += 4) {
       Four sum = *reinterpret_cast<const Four*>(from + k);
       for (std::size_t j = 0; j < count; ++j)
-        sum += factors[j] * *reinterpret_cast<const Four*>(parts[j] + k);
+        sum += factors[j] * *reinterpret_cast<const Four*>(parts[j] + first + k);
       *reinterpret_cast<Four*>(to + k) = sum;
     }
   }
   for (; k < length; ++k) {
     T sum = from[k];
-    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * parts[j][k];
+    for (std::size_t j = 0; j < count; ++j) sum += factors[j] * parts[j][first + k];
     to[k] = sum;
   }
 }
 
-template <std::size_t most, class T>
-void combine_up_to(std::size_t count, const T* from, const double* factors, const T* const* parts,
-                   int length, T* to) {
-  if (count == most) return combine_parts<most>(from, factors, parts, length, to);
-  if constexpr (most > 0) combine_up_to<most - 1>(count, from, factors, parts, length, to);
+/// Calls run(std::integral_constant<std::size_t, count>()), so that loops over the stages are
+/// unrolled.
+template <std::size_t most = RosenbrockTableau::kMaximumStages, class Run>
+void with_count(std::size_t count, const Run& run) {
+  if (count == most) return run(std::integral_constant<std::size_t, most>());
+  if constexpr (most > 0) with_count<most - 1>(count, run);
 }
 
 }  // namespace internal
 
 /// to = from + sum of factors[j] parts[j] in one pass, for as many factors as there are, at most
-/// RosenbrockTableau::kMaximumStages. `to` may be `from`. The count becomes a template parameter,
-/// so that the loop over the parts is unrolled.
+/// RosenbrockTableau::kMaximumStages. `to` may be `from`.
 /// @param parts where each part begins, as the inner loop takes it; each is as long as `to`.
 template <class T>
 void combine(In<T> from, In<double> factors,
              const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
   assert(from.size() == to.size() && factors.size() <= RosenbrockTableau::kMaximumStages);
-  internal::combine_up_to<RosenbrockTableau::kMaximumStages>(
-      to_index(factors.size()), from.data(), factors.data(), parts, static_cast<int>(to.size()),
-      to.data());
+  internal::with_count(to_index(factors.size()), [&](auto count) {
+    internal::combine_parts<count>(from.data(), factors.data(), parts, 0,
+                                   static_cast<int>(to.size()), to.data());
+  });
 }
 
 /// to = from + sum of factors[j] u_j, for the entries of each u_j from `first` on.
@@ -86,10 +89,18 @@ void combine(In<T> from, In<double> factors, const std::vector<VectorX<T>>& u, i
 template <class T>
 void combine(const IncrementLayout& at, const State<T>& from, In<double> factors,
              const std::vector<VectorX<T>>& u, State<T>* to) {
-  combine(from.q, factors, u, at.x(), to->q);
-  combine(from.s, factors, u, at.s(), to->s);
-  combine(from.v, factors, u, at.v(), to->v);
-  combine(from.z, factors, u, at.z(), to->z);
+  const T* parts[RosenbrockTableau::kMaximumStages];
+  for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = u[to_index(j)].data();
+  internal::with_count(to_index(factors.size()), [&](auto count) {
+    const auto part = [&](const VectorX<T>& begin, int first, VectorX<T>* end) {
+      internal::combine_parts<count>(begin.data(), factors.data(), parts, first,
+                                     static_cast<int>(end->size()), end->data());
+    };
+    part(from.q, at.x(), &to->q);
+    part(from.s, at.s(), &to->s);
+    part(from.v, at.v(), &to->v);
+    part(from.z, at.z(), &to->z);
+  });
 }
 
 }  // namespace codesign

@@ -139,8 +139,9 @@ class RosenbrockStep {
   void interpolate_rates(double theta, State<T>* rates) const;
 
  private:
-  /// The dense output between both ends of an attempt.
-  void interpolate(double theta, const State<T>& from, const State<T>& to, State<T>* state) const;
+  /// The dense output between both ends of an attempt. @param weights dense_weights() at theta.
+  void interpolate(double theta, const RosenbrockTableau::Row& weights, const State<T>& from,
+                   const State<T>& to, State<T>* state) const;
   /// The derivatives with which a step begins at state().
   void linearize_start();
   /// The derivatives with which a step of a Rosenbrock method begins, at end_.
