@@ -13,7 +13,7 @@ class CompiledSystem;
 class RosenbrockIntegrator;
 struct SwitchOrigin;
 
-/// Runs that start or end exactly on a guard, doc/theory.md (18h): designs on one side of this one
+/// Runs that start or end exactly on a guard, doc/theory.md (18i): designs on one side of this one
 /// have an event that those on the other side do not have, so that derivatives by what moves the
 /// guard hold on one side only. Warnings `one_sided_gradient` say so.
 class OneSidedGradient {
