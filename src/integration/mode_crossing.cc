@@ -2,6 +2,7 @@
 // What a ModeWatch does where the mode changes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "equations/equation_variant.h"
@@ -122,14 +123,18 @@ Status ModeWatch::count_return(double t) {
               "in place of sign() of a velocity, or make the expression continuous"};
 }
 
-// At a kink the rates are continuous, and no sensitivity jumps.
+// At a kink the rates are continuous, and no sensitivity jumps. An acceleration that changes the
+// velocity by less than its rounding in the whole run is none: of a stop that a body at constant
+// velocity touches, by the rounding of its position.
 bool ModeWatch::has_jump(const ModeChange& change) const {
-  constexpr double kSame = 1e-10;
+  constexpr double kSame = 1e-10, kEpsilon = std::numeric_limits<double>::epsilon();
+  const double least =
+      kEpsilon * change.before.v.lpNorm<Eigen::Infinity>() / system_.study().duration;
   const double size = std::max(change.before.z.lpNorm<Eigen::Infinity>(),
                                change.behind.z.lpNorm<Eigen::Infinity>()),
                jump = (change.before.z - change.behind.z).lpNorm<Eigen::Infinity>(),
                of_g = std::abs(change.g_before - change.g);
-  return jump > kSame * size ||
+  return jump > std::max(kSame * size, least) ||
          of_g > kSame * std::max(std::abs(change.g_before), std::abs(change.g));
 }
 
