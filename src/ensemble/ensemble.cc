@@ -291,16 +291,17 @@ GradientCheck check_along(const Ensemble& ensemble, const Eigen::VectorXd& rho, 
 
 namespace {
 
-/// The gradient of the measure through finer steps, by each parameter or along the directions.
-/// False if a run cannot be repeated so.
+/// The gradient of the measure through finer steps, by each parameter or along the check's
+/// directions. False if a run cannot be repeated so. @param factors derivatives of the measure by
+/// the value of each scenario.
 bool differentiate_finer(const Ensemble& ensemble, const Eigen::VectorXd& rho,
-                         const Eigen::MatrixXd& directions, const std::atomic<bool>* cancel,
+                         const Eigen::VectorXd& factors, const std::atomic<bool>* cancel,
                          GradientCheck* check) {
-  const EnsembleEvaluation all = ensemble.evaluate(rho, false, cancel);
+  const Eigen::MatrixXd& directions = check->directions;
   Eigen::VectorXd sum =
       Eigen::VectorXd::Zero(directions.size() > 0 ? directions.cols() : rho.size());
   for (std::size_t k = 0; k < ensemble.scenarios().size(); ++k) {
-    const double factor = all.total.status.ok() ? all.by_value[to_signed(k)] : 0.0;
+    const double factor = factors[to_signed(k)];
     const Scenario& scenario = ensemble.scenarios()[k];
     if (factor == 0.0) continue;
     const bool tests_errors = scenario.system->study().solver.sensitivity_tolerance > 0.0;
@@ -321,16 +322,19 @@ bool differentiate_finer(const Ensemble& ensemble, const Eigen::VectorXd& rho,
 void check_steps(const Ensemble& ensemble, const Eigen::VectorXd& rho,
                  const std::atomic<bool>* cancel, GradientCheck* check) {
   if (!check->status.ok() || check->method != CheckMethod::kComplexStep) return;
-  if (!differentiate_finer(ensemble, rho, check->directions, cancel, check)) return;
+  const EnsembleEvaluation all = ensemble.evaluate(rho, false, cancel);
+  Eigen::VectorXd factors = Eigen::VectorXd::Zero(to_signed(ensemble.scenarios().size()));
+  if (all.total.status.ok()) factors = all.by_value;
+  if (!differentiate_finer(ensemble, rho, factors, cancel, check)) return;
   compare(check);
   if (!(check->largest_change > kCoarse && change_counts(*check))) return;
   // One direction cannot tell whose derivative changes: perhaps one that is zero but for rounding.
   GradientCheck each = *check;
   each.directions.resize(0, 0);
-  const bool is_known = check->directions.size() > 0 &&
-                        differentiate_finer(ensemble, rho, each.directions, cancel, &each);
+  const bool is_known =
+      check->directions.size() > 0 && differentiate_finer(ensemble, rho, factors, cancel, &each);
   check->status = each.status;
-  if (!is_known || change_counts(each))
+  if (check->status.ok() && (!is_known || change_counts(each)))
     check->evaluation.warnings.push_back(
         warn("coarse_gradient",
              {{ensemble.scenarios().front().system->whole_study().file, 1},

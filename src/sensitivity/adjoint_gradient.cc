@@ -197,24 +197,19 @@ void AdjointGradient::differentiate_guard(int guard, Eigen::VectorXd* derivative
 }
 
 void AdjointGradient::look_beyond_end(const Eigen::VectorXd& gradient) {
-  if (integrator_.is_ended() || integrator_.guard() < 0 || end_.moves()) return;
-  ModeWatch& watch = integrator_.mode_watch();
-  const std::vector<bool> mode = watch.mode();
-  const SwitchOrigin* const origin =
-      integrator_.equations().compiled().switch_origin(mode, to_index(integrator_.guard()));
-  ModeChange change;
-  if (!watch.cross(integrator_.state(), &integrator_.assembly(), &integrator_.equations(), &change)
-           .ok())
-    return;
+  if (end_.moves()) return;
+  const std::optional<EndCrossing> crossing = cross_end(&integrator_);
+  if (!crossing) return;
+  const ModeChange& change = crossing->change;
   Eigen::VectorXd behind = Eigen::VectorXd::Zero(gradient.size());
   take_terminal(change.behind);
   const bool goes_back =
       back_->jumps.reverse(run_jump(back_->replay.size() - 1, change), change.before, change.behind,
-                           mode, 0.0, &back_->final_adjoint) &&
+                           crossing->mode, 0.0, &back_->final_adjoint) &&
       go_back();
   if (goes_back) add_derivatives(change.behind, &behind);
-  integrator_.equations().hold(mode);
-  if (goes_back) one_sided_.compare(origin, gradient, behind, false);
+  integrator_.equations().hold(crossing->mode);
+  if (goes_back) one_sided_.compare(crossing->origin, gradient, behind, false);
 }
 
 void AdjointGradient::gradient(Eigen::VectorXd* gradient) {

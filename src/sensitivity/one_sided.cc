@@ -13,6 +13,20 @@
 
 namespace codesign {
 
+std::optional<EndCrossing> cross_end(RosenbrockIntegrator* integrator) {
+  if (integrator->is_ended() || integrator->guard() < 0) return {};
+  ModeWatch& watch = integrator->mode_watch();
+  Equations<double>& equations = integrator->equations();
+  EndCrossing crossing{
+      watch.mode(),
+      equations.compiled().switch_origin(watch.mode(), to_index(integrator->guard())),
+      {}};
+  const Status status =
+      watch.cross(integrator->state(), &integrator->assembly(), &equations, &crossing.change);
+  if (!status.ok()) return {};
+  return crossing;
+}
+
 void OneSidedGradient::look_at_start(RosenbrockIntegrator* integrator,
                                      const GuardDerivatives& derivatives) {
   ModeWatch& watch = integrator->mode_watch();

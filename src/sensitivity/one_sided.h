@@ -3,15 +3,28 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "integration/mode_watch.h"
 #include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
 class CompiledSystem;
 class RosenbrockIntegrator;
-struct SwitchOrigin;
+
+/// The guard on which a run ends, crossed.
+struct EndCrossing {
+  std::vector<bool> mode;      ///< before it
+  const SwitchOrigin* origin;  ///< of the switch
+  ModeChange change;
+};
+
+/// Crosses the guard on which a run has come to its end; std::nullopt if there is none, and if it
+/// has ended the run. The equations then hold the mode behind it, until hold(mode).
+std::optional<EndCrossing> cross_end(RosenbrockIntegrator* integrator);
 
 /// Runs that start or end exactly on a guard, doc/theory.md (18i): designs on one side of this one
 /// have an event that those on the other side do not have, so that derivatives by what moves the

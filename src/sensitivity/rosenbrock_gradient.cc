@@ -228,27 +228,21 @@ void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {
 
 // The gradient of runs that end behind a guard which is zero at the end of this one.
 void RosenbrockGradient::look_beyond_end(const Eigen::VectorXd& gradient) {
-  if (integrator_.is_ended() || integrator_.guard() < 0) return;
-  ModeWatch& watch = integrator_.mode_watch();
-  const std::vector<bool> mode = watch.mode();
-  const SwitchOrigin* const origin =
-      integrator_.equations().compiled().switch_origin(mode, to_index(integrator_.guard()));
-  ModeChange change;
-  if (!watch.cross(integrator_.state(), &integrator_.assembly(), &integrator_.equations(), &change)
-           .ok())
-    return;
+  const std::optional<EndCrossing> crossing = cross_end(&integrator_);
+  if (!crossing) return;
+  const ModeChange& change = crossing->change;
   const bool has_jumped = change.guard >= 0;
   Eigen::VectorXd behind = gradient, time = Eigen::VectorXd::Zero(count());
   if (has_jumped) guard_time(change.guard, change.guard_rate, change.end, &time);
   groups_->for_each([&](auto* group) {
     const auto kept = group->step.directions();
     if (has_jumped) group->step.cross(change);
-    group->step.jump({}, integrator_.state(), change.behind, integrator_.assembly(), watch.mode());
+    group->step.jump({}, integrator_.state(), change.behind, integrator_.assembly(), change.mode);
     collect(group, change.behind, &behind);
-    group->step.go_back(kept, mode);
+    group->step.go_back(kept, crossing->mode);
   });
-  integrator_.equations().hold(mode);
-  one_sided_.compare(origin, gradient, behind, !watch_.is_empty() && !time.isZero(0.0));
+  integrator_.equations().hold(crossing->mode);
+  one_sided_.compare(crossing->origin, gradient, behind, !watch_.is_empty() && !time.isZero(0.0));
 }
 
 void RosenbrockGradient::collect(const State<double>& end, Eigen::VectorXd* gradient) {

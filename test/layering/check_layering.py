@@ -167,13 +167,17 @@ def blank_comments_and_strings(text):
     return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match.group(0)), text)
 
 
+def without_directives(code):
+    """The same, line for line, without those of the preprocessor."""
+    return "\n".join("" if line.lstrip().startswith("#") else line for line in code.split("\n"))
+
+
 NOT_A_FUNCTION = re.compile(r"^\s*(namespace|class|struct|union|enum|extern)\b|=\s*$")
 
 
 def function_lengths(text):
     """(first line, number of lines) of each outermost brace block that is a function body."""
-    code = blank_comments_and_strings(text)
-    code = "\n".join("" if line.lstrip().startswith("#") else line for line in code.split("\n"))
+    code = without_directives(blank_comments_and_strings(text))
     lengths, stack, head_start = [], [], 0
     for position, character in enumerate(code):
         if character == "{":
@@ -199,8 +203,7 @@ SCOPE = re.compile(r"\bnamespace\b(?P<namespace>[^;{}()=]*)$|\b(?:class|struct|e
 
 def types_in(text):
     """(namespaces, name, line) of each type that a source defines in a namespace; "" is an anonymous one."""
-    code = blank_comments_and_strings(text)
-    code = "\n".join("" if line.lstrip().startswith("#") else line for line in code.split("\n"))
+    code = without_directives(blank_comments_and_strings(text))
     types, scopes, head_start = [], [], 0
     for position, character in enumerate(code):
         if character == "{":

@@ -197,8 +197,10 @@ class Outputs(unittest.TestCase):
 
 class Page(unittest.TestCase):
     def test_every_key_has_a_meaning(self):
-        rows = [line for line in (ROOT / "doc/json.md").read_text().splitlines() if line.startswith("| `")]
-        self.assertGreater(len(rows), 250)
+        lines = (ROOT / "doc/json.md").read_text().splitlines()
+        rows = [line for line in lines if line.startswith("| `")]
+        again = [line for line in lines if "of [several commands](" in line]  # keys that other commands have as well
+        self.assertGreater(len(rows) + sum(line.count("`") // 2 for line in again), 300)
         self.assertEqual([row for row in rows if not row.rstrip(" |").count(" | ") == 2], [])
 
     def test_it_is_made_from_the_schema(self):
