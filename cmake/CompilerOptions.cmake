@@ -53,7 +53,7 @@ function(codesign_optimize target)
   endif()
   # Whatever instantiates a template of the time loop belongs to them: the linker keeps one copy, and it may be the slow one.
   set(hot sparse/lu_schedule equations/iteration_matrix
-    integration/rosenbrock_step integration/dense_output integration/run_watch sensitivity/tangent_step)
+    integration/one_step integration/rosenbrock_stages integration/explicit_stages integration/dense_output integration/run_watch sensitivity/tangent_step sensitivity/tangent_method)
   list(TRANSFORM hot PREPEND ${PROJECT_SOURCE_DIR}/src/)
   list(TRANSFORM hot APPEND .cc)
   foreach(peer kernel_tables kernel_program_tables articulated_body robot_peers)

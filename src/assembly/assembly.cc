@@ -33,7 +33,7 @@ Assembly::Assembly(const CompiledSystem& system)
       rank_tolerance_(kRank),
       singular_start_(system, tree_, loops_),
       own_design_(system.parameters()),
-      matrix_(system) {
+      rates_(system) {
   const Topology& topology = system.topology();
   const std::vector<int>& dropped = system.dropped_rows();
   for (int row : loops_.constraint_rows())
@@ -51,7 +51,6 @@ Assembly::Assembly(const CompiledSystem& system)
   guess_given_ = given.guess;
   velocity_given_ = given.velocity;
   velocity_beside_ = given.velocity_beside;
-  derivatives_.resize(system.patterns());
 }
 
 void Assembly::begin_at(double time, const VectorX<double>& theta) {
@@ -60,7 +59,7 @@ void Assembly::begin_at(double time, const VectorX<double>& theta) {
 }
 
 void Assembly::set_start(const std::vector<double>& parameters) {
-  matrix_.reset_pivots();
+  rates_.reset_pivots();
   theta_.setZero(tree_.size);
   theta_rate_.setZero(tree_.size);
   for (const InitialJointState& initial : system_.study().initial_state) {

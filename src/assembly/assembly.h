@@ -6,7 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/extension_workspace.h"
 #include "assembly/loop_jacobian.h"
+#include "assembly/rate_solution.h"
 #include "assembly/singular_start.h"
 #include "assembly/stuck_start.h"
 #include "assembly/tree_coordinates.h"
@@ -104,10 +106,9 @@ class Assembly {
     extend(parameters, start, equations, &workspace, state);
   }
 
-  /// SparseLu::keep_pivots() after a solution, whose pivots later solutions begin with.
-  void keep_pivots() { matrix_.keep_pivots(); }
-  /// The matrix of solve_rates(), with the kept pivots.
-  const IterationMatrix& rates_matrix() const { return matrix_; }
+  /// Of any state, not only of those that this finds.
+  RateSolution& rates() { return rates_; }
+  const RateSolution& rates() const { return rates_; }
 
   /// Tree joint coordinates of the last solution [rad or m], in the order of TreeLayout.
   const VectorX<double>& theta() const { return theta_; }
@@ -118,28 +119,12 @@ class Assembly {
   /// Indices of the entries of Study::initial_state whose velocities contradict each other; empty
   /// unless kInitialVelocityFailed.
   const std::vector<std::size_t>& contradicting() const { return contradicting_; }
-  /// Solves G(q, v, s; z) = 0 for state->z (accelerations, multipliers, rates of the extra states),
-  /// starting from the present state->z.
-  Status solve_rates(Equations<double>* equations, State<double>* state);
-  /// Sets state->z to the solution of the last solve_rates() with its exact first-order parts,
-  /// which follow from the first-order parts of the rest of `state`. @param z that solution; it
-  /// must belong to the values of `state`. @param equations must hold the design, derivatives
-  /// included.
-  template <class T>
-  void extend_rates(const VectorX<double>& z, Equations<T>* equations,
-                    ExtensionWorkspace<T>* workspace, State<T>* state) const;
-  template <class T>
-  void extend_rates(const VectorX<double>& z, Equations<T>* equations, State<T>* state) const {
-    ExtensionWorkspace<T> workspace;
-    extend_rates(z, equations, &workspace, state);
-  }
-  /// The time derivative of z at the solution of the last solve_rates(), where q, v and s change as
-  /// `rates` says [per s]; written to rates->z. @param at that solution.
-  void differentiate_rates(const State<double>& at, Equations<double>* equations,
-                           State<double>* rates);
   /// Once `cancel` is set (by any thread), a running or later solve ends soon with kCancelled.
   /// nullptr: no cancellation.
-  void obey(const std::atomic<bool>* cancel) { cancel_ = cancel; }
+  void obey(const std::atomic<bool>* cancel) {
+    cancel_ = cancel;
+    rates_.obey(cancel);
+  }
   /// The largest closure error of a loop or coupling at the last positions; after a failure, at the
   /// nearest positions that were tried.
   const LoopMiss& worst_miss() const { return worst_miss_; }
@@ -310,8 +295,6 @@ class Assembly {
   const std::vector<int>& choose_columns(const ColumnPreferences& preferences);
   void choose(const ColumnPreferences& preferences, Dependents* dependents);
   void factor(const std::vector<int>& columns, double rank_tolerance, Dependents* dependents) const;
-  /// Overwrites x with the solution of G_z y = x at the last solution of solve_rates().
-  void solve_at_rates(Out<double> x) const;
   template <class T>
   void correct(const Dependents& dependents, const VectorX<T>& rows,
                ExtensionWorkspace<T>* workspace, VectorX<T>* coordinates) const;
@@ -341,13 +324,7 @@ class Assembly {
   Origin origin_;
   Postures postures_;
   Dependents positions_, velocities_;
-  Linearization<double> derivatives_;
-  /// Factored at the last solution of solve_rates(), unless that has mass factors.
-  IterationMatrix matrix_;
-  /// The factors of that solution if an expression gave it, and their values.
-  const MassFactor* factor_ = nullptr;
-  std::vector<double> factor_values_;
-  VectorX<double> residual_;  ///< workspace of solve_rates()
+  RateSolution rates_;
   LoopMiss worst_miss_;
   Workspace work_;
   const std::atomic<bool>* cancel_ = nullptr;

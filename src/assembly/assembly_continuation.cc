@@ -43,7 +43,7 @@ Status Assembly::close_from(const TreeCoordinates& from, const std::vector<doubl
                             Equations<double>* equations) {
   warnings_.clear();
   contradicting_.clear();
-  matrix_.reset_pivots();
+  rates_.reset_pivots();
   theta_ = from.theta;
   theta_rate_ = from.rate;
   follow_couplings(*equations);
@@ -231,7 +231,7 @@ std::string Assembly::guesses_for(const VectorX<double>& theta,
   for (int j : tree_.joint_order) {
     const JointDescription& joint = system_.robot().joints[to_index(j)];
     const int c = tree_.offset[to_index(j)];
-    if (coordinates_of(joint.type) == 1 &&
+    if (joint.has_one_coordinate() &&
         std::find(coordinates.begin(), coordinates.end(), c) != coordinates.end())
       text += (text.empty() ? "" : ", ") + joint.name +
               ": {guess: " + to_decimal(to_four_digits(theta[c])) + "}";

@@ -139,7 +139,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
                             State<double>* state) {
   warnings_.clear();
   contradicting_.clear();
-  matrix_.reset_pivots();
+  rates_.reset_pivots();
   const double before = posture_, to = before + 1.0;
   all_rows_count_ = !system_.sharing().drops();
   if (before == 0.0) {
@@ -166,7 +166,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   set_turns(system_, tree_, theta_, state);
   keep_loop_turns(counted.turns, state);
   equations->track_turns(state);
-  const Status status = solve_rates(equations, state);
+  const Status status = rates_.solve(equations, state);
   note_posture(*state, is_singular);
   if (!is_singular) return status;
   const bool has_forces = status.ok() && state->z.cwiseAbs().maxCoeff() < kUndetermined;

@@ -33,21 +33,23 @@ Status Assembly::require_rest(const State<double>& state, Equations<double>* equ
   return {};
 }
 
-/// Slip accelerations at the solution of solve_rates() and their derivatives by the deflections,
+/// Slip accelerations at the solution of hold_stuck() and their derivatives by the deflections,
 /// which change the rates by -G_z^-1 G_zeta.
 void Assembly::find_response(const State<double>& state, Equations<double>* equations) {
   VectorX<double> a, limits, moved_a, unused, change;
   equations->stuck_slips(state, &a, &limits);
-  equations->linearize(state, &derivatives_);
+  Linearization<double> derivatives;
+  derivatives.resize(system_.patterns());
+  equations->linearize(state, &derivatives);
   Eigen::MatrixXd response(a.size(), a.size());
   State<double> moved = state, direction;
   direction.resize(system_.layout());
   for (Eigen::Index k = 0; k < a.size(); ++k) {
     direction.s.setZero();
     direction.s[stuck_.state(k)] = 1.0;
-    directional_derivative(system_, derivatives_, direction, &change);
+    directional_derivative(system_, derivatives, direction, &change);
     change.conservativeResize(state.z.size());
-    solve_at_rates(change);
+    rates_.solve_linear(change);
     moved.z = state.z - change;
     equations->stuck_slips(moved, &moved_a, &unused);
     response.col(k) = moved_a - a;
@@ -56,20 +58,20 @@ void Assembly::find_response(const State<double>& state, Equations<double>* equa
 }
 
 Status Assembly::hold_stuck(Equations<double>* equations, State<double>* state) {
-  if (stuck_.is_empty()) return solve_rates(equations, state);
+  if (stuck_.is_empty()) return rates_.solve(equations, state);
   constexpr int kIterations = 50;
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   double previous = std::numeric_limits<double>::infinity();
   stuck_.begin();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    if (Status status = solve_rates(equations, state); !status.ok()) return status;
+    if (Status status = rates_.solve(equations, state); !status.ok()) return status;
     find_response(*state, equations);
     const double change = stuck_.improve();
     if (!std::isfinite(change)) break;
     for (Eigen::Index k = 0; k < stuck_.size(); ++k)
       state->s[stuck_.state(k)] = stuck_.deflections()[k];
     if (change < 1e-15 || (change < converged && change >= 0.5 * previous)) {
-      if (Status status = solve_rates(equations, state); !status.ok()) return status;
+      if (Status status = rates_.solve(equations, state); !status.ok()) return status;
       find_response(*state, equations);
       warn_of_slides();
       return {};
@@ -100,7 +102,7 @@ void Assembly::extend_stuck(const State<double>& start, Equations<T>* equations,
                             ExtensionWorkspace<T>* workspace, State<T>* state) const {
   for (Eigen::Index k = 0; k < stuck_.size(); ++k)
     state->s[stuck_.state(k)] = T(start.s[stuck_.state(k)]);
-  extend_rates(start.z, equations, workspace, state);
+  rates_.extend(start.z, equations, &workspace->rates, state);
   VectorX<T> a(stuck_.size()), limits(stuck_.size()), zeta(stuck_.size());
   equations->stuck_slips(*state, &a, &limits);
   for (Eigen::Index k = 0; k < stuck_.size(); ++k) zeta[k] = state->s[stuck_.state(k)];

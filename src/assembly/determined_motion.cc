@@ -77,7 +77,7 @@ class Motions {
     for (int k : tree_.joint_order) {
       const int first = tree_.offset[to_index(k)];
       if (coordinate >= first &&
-          coordinate < first + coordinates_of(system_.robot().joints[to_index(k)].type))
+          coordinate < first + system_.robot().joints[to_index(k)].freedoms().size())
         return system_.robot().joints[to_index(k)];
     }
     return system_.robot().joints.front();

@@ -55,15 +55,11 @@ LoopJacobian::LoopJacobian(const CompiledSystem& system, const TreeLayout& tree)
       joint_of_(to_index(tree.size), -1),
       slides_(to_index(tree.size), false) {
   for (int joint : tree.joint_order) {
-    const JointType type = system.robot().joints[to_index(joint)].type;
-    const int first = tree.offset[to_index(joint)], count = coordinates_of(type);
-    const int sliding = type == JointType::kPrismatic  ? 1
-                        : type == JointType::kPlanar   ? 2
-                        : type == JointType::kFloating ? 3
-                                                       : 0;
-    for (int k = 0; k < count; ++k) {
+    const JointFreedoms& freedoms = system.robot().joints[to_index(joint)].freedoms();
+    const int first = tree.offset[to_index(joint)];
+    for (int k = 0; k < freedoms.size(); ++k) {
       joint_of_[to_index(first + k)] = joint;
-      slides_[to_index(first + k)] = k < sliding;
+      slides_[to_index(first + k)] = k < freedoms.slides;
     }
   }
   const Topology& topology = system.topology();
@@ -143,7 +139,7 @@ void LoopJacobian::add_loop(int index) {
   Loop loop{index, rows(), {}};
   const auto add = [&](const std::vector<int>& joints, bool moves_j) {
     for (int joint : joints)
-      for (int k = 0; k < coordinates_of(system_.robot().joints[to_index(joint)].type); ++k) {
+      for (int k = 0; k < system_.robot().joints[to_index(joint)].freedoms().size(); ++k) {
         loop.movers.push_back({tree_.offset[to_index(joint)] + k, moves_j});
         coordinates_.push_back(loop.movers.back().coordinate);
       }

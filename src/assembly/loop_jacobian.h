@@ -31,15 +31,6 @@ struct LoopMiss {
   double angle = 0.0;   ///< [rad]; for a coupling, in the unit of its follower's coordinate
 };
 
-/// The memory that Assembly::extend() and extend_rates() compute in; one per scalar, reused from
-/// design to design.
-template <class T>
-struct ExtensionWorkspace {
-  VectorX<T> theta, rate, Phi, Phi_rate, G;
-  Eigen::MatrixXd errors, rows, scaled, changes, rates;  ///< derivatives, one column per direction
-  LeastSquaresWorkspace solution;
-};
-
 /// The memory that LoopJacobian computes in.
 struct LoopWorkspace {
   std::vector<LinkMotion<double>> links;

@@ -264,7 +264,8 @@ Warning other_integrator(const Study& study) {
                "idas does not locate the instants at which expressions switch, and gradients would "
                "lose what happens there: the runs of this study take rosenbrock",
                "idas",
-               "rosenbrock; or expressions without comparisons, sign, abs, min, max and floor"});
+               "rosenbrock; or expressions without comparisons, sign, abs, min, max and floor, and "
+               "terms with the loss square or soft_l1"});
 }
 
 }  // namespace

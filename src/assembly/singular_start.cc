@@ -170,7 +170,7 @@ std::string SingularStart::joints() const {
     const JointDescription& joint = system_.robot().joints[k];
     const bool has_coordinate = std::find(tree_.joint_order.begin(), tree_.joint_order.end(),
                                           static_cast<int>(k)) != tree_.joint_order.end();
-    if (!has_coordinate || joint.type == JointType::kFixed) continue;
+    if (!has_coordinate || joint.is_fixed()) continue;
     if (moves[tree_.offset[k]] > 1e-6 * moves.maxCoeff())
       text += (text.empty() ? "'" : ", '") + joint.name + "'";
   }

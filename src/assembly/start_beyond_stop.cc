@@ -31,27 +31,26 @@ Warnings starts_beyond_stops(const CompiledSystem& system, const State<double>& 
   equations->formulas().load(state);
   const StateView<double>& view = equations->formulas().view();
   for (const JointLoad& load : system.loads()) {
-    if (!load.stop) continue;
+    const auto* stop = load.find<StopLoad>();
+    if (!stop) continue;
     const JointDynamicsConstants<double>& d = view.dynamics(load.pair, load.element);
     const double position = view.coordinate_value(load.pair, load.element),
                  beyond = std::max(position - d.upper, d.lower - position);
     if (!(beyond > kTolerated * (d.upper - d.lower))) continue;
-    JointLoad stop = load;
-    stop.spring = false;
     const int joint =
         system.topology().pairs[to_index(load.pair)].chain[to_index(load.element)].joint;
     const JointDescription& description = system.robot().joints[to_index(joint)];
-    const char* const unit = is_turn(description.type) ? " rad" : " m";
-    append(
-        {warn(
-            "start_beyond_stop",
-            {place_of(system.study(), description), "initial_state." + description.name,
-             "the joint starts " + readable(beyond, 3) + unit +
-                 " beyond its stop, whose spring holds " + readable(joint_energy(view, stop), 4) +
-                 " J there and throws it back; start it between its stops, or leave out "
-                 "limits.position",
-             readable(position, 6) + unit, readable(d.lower, 6) + " to " + readable(d.upper, 6)})},
-        &warnings);
+    const char* const unit = description.is_turn() ? " rad" : " m";
+    append({warn("start_beyond_stop",
+                 {place_of(system.study(), description), "initial_state." + description.name,
+                  "the joint starts " + readable(beyond, 3) + unit +
+                      " beyond its stop, whose spring holds " +
+                      readable(part_energy(view, load, *stop), 4) +
+                      " J there and throws it back; start it between its stops, or leave out "
+                      "limits.position",
+                  readable(position, 6) + unit,
+                  readable(d.lower, 6) + " to " + readable(d.upper, 6)})},
+           &warnings);
   }
   return warnings;
 }

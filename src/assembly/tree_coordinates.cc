@@ -15,8 +15,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kLeastCosine = 1e-6;  // of the second turn of a floating joint, where the first
-                                       // and the third turn about one axis
+// Of the second of three turns, where the first and the third turn about one axis.
+constexpr double kLeastCosine = 1e-6;
 
 LinkMotion<double> motion_of(const System& system, const Equations<double>& equations, int link) {
   const int body = system.topology().link_body[to_index(link)];
@@ -44,34 +44,61 @@ LinkMotion<double> relative_motion(const LinkMotion<double>& parent, const Pose<
   return motion;
 }
 
-void planar_coordinates(const JointDescription& joint, const std::vector<double>& parameters,
-                        const LinkMotion<double>& motion, int c, TreeCoordinates* result) {
-  const PlaneAxes<double> plane = plane_axes(joint, parameters);
-  const Vector3<double> normal = axis_at(joint.axis, parameters);
-  const Vector3<double> turned = motion.X.R * plane.x;
-  result->theta.segment<3>(c) << plane.x.dot(motion.X.t), plane.y.dot(motion.X.t),
-      std::atan2(plane.y.dot(turned), plane.x.dot(turned));
-  result->rate.segment<3>(c) << plane.x.dot(motion.velocity), plane.y.dot(motion.velocity),
-      normal.dot(motion.omega);
+/// The slides of a joint in the joint frame, which are normal to each other, and the axis of its
+/// first turn.
+struct FreedomAxes {
+  std::vector<Vector3<double>> slides;
+  Vector3<double> turn = Vector3<double>::UnitX();
+};
+
+FreedomAxes freedom_axes(const JointDescription& joint, const std::vector<double>& parameters) {
+  FreedomAxes axes;
+  bool is_first = true;
+  visit_freedoms(joint, parameters, [&](bool turns, const Vector3<double>& axis) {
+    if (!turns) axes.slides.push_back(axis);
+    if (turns && is_first) axes.turn = axis;
+    is_first = is_first && !turns;
+  });
+  return axes;
+}
+
+void turn_coordinate(const Vector3<double>& axis, const LinkMotion<double>& motion, int c,
+                     TreeCoordinates* result) {
+  const Vector3<double> x = transverse_axis<double>(axis, std::nullopt), turned = motion.X.R * x;
+  result->theta[c] = std::atan2(axis.cross(x).dot(turned), x.dot(turned));
+  result->rate[c] = axis.dot(motion.omega);
 }
 
 // R = R_x(a) R_y(b) R_z(c) R_start, omega = x a' + R_x(a) y b' + R_x(a) R_y(b) z c'.
-bool floating_coordinates(const JointDescription& joint, const std::vector<double>& parameters,
-                          const LinkMotion<double>& motion, int c, TreeCoordinates* result) {
-  const Matrix3<double> R =
-      motion.X.R *
-      rotation_from_rpy<double>(vector_at(joint.start_rotation, parameters)).transpose();
+bool three_turns(const Matrix3<double>& start, const LinkMotion<double>& motion, int c,
+                 TreeCoordinates* result) {
+  const Matrix3<double> R = motion.X.R * start.transpose();
   const double a = std::atan2(-R(1, 2), R(2, 2)), b = std::asin(std::clamp(R(0, 2), -1.0, 1.0));
   if (std::cos(b) < kLeastCosine) return false;
   const Matrix3<double> about_x = Eigen::AngleAxisd(a, Vector3<double>::UnitX()).toRotationMatrix();
   Matrix3<double> axes;
   axes << Vector3<double>::UnitX(), about_x.col(1),
       about_x * (Eigen::AngleAxisd(b, Vector3<double>::UnitY()).toRotationMatrix()).col(2);
-  result->theta.segment<3>(c) = motion.X.t;
-  result->theta.segment<3>(c + 3) << a, b, std::atan2(-R(0, 1), R(0, 0));
-  result->rate.segment<3>(c) = motion.velocity;
-  result->rate.segment<3>(c + 3) = axes.partialPivLu().solve(motion.omega);
+  result->theta.segment<3>(c) << a, b, std::atan2(-R(0, 1), R(0, 0));
+  result->rate.segment<3>(c) = axes.partialPivLu().solve(motion.omega);
   return true;
+}
+
+/// The inverse of a joint's motion, JointFreedoms: its coordinates from the child's motion in the
+/// joint frame.
+bool freedom_coordinates(const JointDescription& joint, const std::vector<double>& parameters,
+                         const LinkMotion<double>& motion, int first, TreeCoordinates* result) {
+  const FreedomAxes axes = freedom_axes(joint, parameters);
+  int c = first;
+  for (const Vector3<double>& axis : axes.slides) {
+    result->theta[c] = axis.dot(motion.X.t);
+    result->rate[c++] = axis.dot(motion.velocity);
+  }
+  if (joint.freedoms().turns == 1) turn_coordinate(axes.turn, motion, c, result);
+  if (joint.freedoms().turns <= 1) return true;
+  return joint.freedoms().turns == 3 &&
+         three_turns(rotation_from_rpy<double>(vector_at(joint.start_rotation, parameters)), motion,
+                     c, result);
 }
 
 bool scalar_coordinate(const System& system, int joint, int pair, int c,
@@ -102,19 +129,15 @@ void mark(std::vector<bool>* flags, int first, int count, bool given) {
   for (int k = 0; given && k < count; ++k) (*flags)[to_index(first + k)] = true;
 }
 
-/// Writes a vector in the joint frame to the sliding coordinates of a planar (2) or floating (3)
-/// joint.
+/// Writes a vector in the joint frame to the sliding coordinates of a joint.
 template <class T>
 void set_slides(const JointDescription& joint, const QuantityVector& vector,
                 const std::vector<T>& parameters, Out<T> coordinates) {
   const Vector3<T> x = vector_at(vector, parameters);
-  if (joint.type == JointType::kFloating) {
-    for (int k = 0; k < 3; ++k) coordinates[k] = x[k];
-    return;
-  }
-  const PlaneAxes<T> plane = plane_axes(joint, parameters);
-  coordinates[0] = dot<T>(x, plane.x);
-  coordinates[1] = dot<T>(x, plane.y);
+  int k = 0;
+  visit_freedoms(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
+    if (!turns) coordinates[k++] = dot<T>(x, axis);
+  });
 }
 
 /// The position of a joint with a given one.
@@ -139,9 +162,8 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
   for (int k : tree.joint_order) {
     const JointDescription& joint = system.robot().joints[to_index(k)];
     const int pair = system.topology().joint_pair[to_index(k)], c = tree.offset[to_index(k)];
-    const int count = coordinates_of(joint.type);
-    if (count == 0 || pair < 0) continue;
-    if (count == 1) {
+    if (joint.freedoms().size() == 0 || pair < 0) continue;
+    if (joint.has_one_coordinate()) {
       if (!scalar_coordinate(system, k, pair, c, equations, result)) return joint.name;
       continue;
     }
@@ -149,10 +171,7 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
     const LinkMotion<double> motion = relative_motion(
         motion_of(system, *equations, joint.parent), pose_at(joint.origin, equations->parameters()),
         motion_of(system, *equations, joint.child));
-    if (count == 3)
-      planar_coordinates(joint, equations->parameters(), motion, c, result);
-    else if (!floating_coordinates(joint, equations->parameters(), motion, c, result))
-      return joint.name;
+    if (!freedom_coordinates(joint, equations->parameters(), motion, c, result)) return joint.name;
   }
   return {};
 }
@@ -169,8 +188,7 @@ GivenStart::GivenStart(const System& system, TreeLayout* layout) {
     mark(&position, c, 1, initial.position.has_value());
     mark(&guess, c, 1, initial.guess.has_value());
     mark(&velocity, c, 1, initial.velocity.has_value());
-    const bool planar = system.robot().joints[to_index(joint)].type == JointType::kPlanar;
-    const int slides = planar ? 2 : 3, turns = planar ? 1 : 3;
+    const auto [each, slides, turns] = system.robot().joints[to_index(joint)].freedoms();
     mark(&position, c, slides, initial.translation.has_value());
     mark(&position, c + slides, turns, initial.rotation.has_value());
     mark(&velocity, c, slides, initial.linear_velocity.has_value());
@@ -193,19 +211,20 @@ void set_given_start(const System& system, const TreeLayout& tree, const std::ve
     if (index < 0) continue;
     const JointDescription& joint = system.robot().joints[to_index(index)];
     const int c = tree.offset[to_index(index)];
-    const bool planar = joint.type == JointType::kPlanar;
-    const int slides = planar ? 2 : 3;
+    const int slides = joint.freedoms().slides;
+    const bool turns_once = joint.freedoms().turns == 1;
     if (initial.position) (*theta)[c] = position_at(initial, parameters, posture);
     if (initial.velocity) (*rate)[c] = initial.velocity->at(parameters);
     if (initial.translation)
       set_slides(joint, *initial.translation, parameters, Out<T>(*theta).subspan(c, slides));
     if (initial.linear_velocity)
       set_slides(joint, *initial.linear_velocity, parameters, Out<T>(*rate).subspan(c, slides));
-    if (initial.rotation && planar) (*theta)[c + 2] = (*initial.rotation)[2].at(parameters);
-    if (initial.angular_velocity && planar)
-      (*rate)[c + 2] = (*initial.angular_velocity)[2].at(parameters);
-    if (initial.angular_velocity && !planar)
-      rate->template segment<3>(c + 3) = vector_at(*initial.angular_velocity, parameters);
+    if (initial.rotation && turns_once)
+      (*theta)[c + slides] = (*initial.rotation)[2].at(parameters);
+    if (initial.angular_velocity && turns_once)
+      (*rate)[c + slides] = (*initial.angular_velocity)[2].at(parameters);
+    if (initial.angular_velocity && !turns_once)
+      rate->template segment<3>(c + slides) = vector_at(*initial.angular_velocity, parameters);
   }
 }
 

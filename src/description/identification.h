@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/loss_law.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -147,17 +148,11 @@ struct FilterOptions {
   SourceLocation where;
 };
 
-/// A loss that lets outliers count less. `scale` is in units of the spread of the residuals of each
-/// joint.
-enum class LossKind {
-  kNone,   ///< sum of squares
-  kHuber,  ///< quadratic up to `scale`, linear beyond
-  kSoftL1  ///< 2 (sqrt(1 + x^2) - 1), a smooth Huber loss
-};
-constexpr std::array<const char*, 3> kLossNames{"none", "huber", "soft_l1"};
+/// The loss of the residuals, each over the spread of the residuals of its joint: that of a sum of
+/// squares, or one that lets outliers count less.
 struct LossOptions {
-  LossKind kind = LossKind::kNone;
-  double scale = 1.345;  ///< 95 % efficient for normal residuals (Huber)
+  LossKind kind = LossKind::kSquare;  ///< with LossLaw::weight
+  double scale = 1.345;               ///< 95 % efficient for normal residuals (Huber)
 };
 
 /// How the noise of residuals is taken in intervals; doc/theory.md (33)-(36).

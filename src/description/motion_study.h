@@ -10,6 +10,7 @@
 
 #include "description/control_realization.h"
 #include "description/expression.h"
+#include "description/loss_law.h"
 #include "description/reference.h"
 #include "description/signal.h"
 #include "description/solver_options.h"
@@ -93,11 +94,13 @@ struct GivenMotion {
   SourceLocation where;
 };
 
-/// One term weight * (signal - reference)^2 of the objective; theory (21).
+/// One term weight * rho(signal - reference) of the objective, with its loss rho; theory (21).
 struct ObjectiveTerm {
   SignalDescription signal;
   ReferenceDescription reference;
   Quantity weight{1.0};
+  LossKind loss = LossKind::kSquare;
+  Quantity scale{1.0};  ///< of a loss with has_scale, > 0 [unit of the signal]
   SourceLocation where;
 };
 

@@ -6,23 +6,12 @@
 namespace codesign {
 
 const Laws& standard_laws() {
-  static const Laws laws{friction_laws(), joint_laws(), control_laws()};
+  static const Laws laws{friction_laws(), joint_laws(), control_laws(), losses()};
   return laws;
 }
 
-namespace {
-
-PairKind kind_in_space(const JointDescription& joint) {
-  if (joint.own_kind) return *joint.own_kind;
-  for (const RowReference<JointLaw>& row : standard_laws().joints)
-    if (row->type == joint.type) return pair_of(*row);
-  return PairKind::kFree;
-}
-
-}  // namespace
-
 PairKind kind_of(const JointDescription& joint) {
-  const PairKind kind = kind_in_space(joint);
+  const PairKind kind = pair_of(joint.law());
   return joint.in_plane ? PairKind(*kind->in_plane) : kind;
 }
 

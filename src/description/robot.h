@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "description/expression.h"
+#include "description/loss_law.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
@@ -28,6 +29,7 @@ struct Laws {
   std::vector<FrictionModel> friction;
   std::vector<RowReference<JointLaw>> joints;
   std::vector<ControllerKind> controllers;
+  std::vector<LossKind> losses;
 };
 
 /// The laws of doc/annotations.md and doc/study.md.
@@ -189,6 +191,18 @@ struct JointDescription {
   bool is_motor = false;  ///< it is such a joint
   SourceLocation where;
 
+  /// Its row of the table of joints: what it leaves free, and how.
+  const JointLaw& law() const { return own_kind ? **own_kind : row_of(type); }
+  const JointFreedoms& freedoms() const { return law().freedoms; }
+  /// As those of JointLaw.
+  bool has_one_coordinate() const { return law().has_one_coordinate(); }
+  bool is_turn() const { return law().is_turn(); }
+  bool is_slide() const { return law().is_slide(); }
+  /// A joint of the tree whose start is a pose, of its child in the joint frame.
+  bool has_pose() const { return !is_loop && freedoms().size() > 1; }
+  /// Whether it holds its two links together as one.
+  bool is_fixed() const { return type == JointType::kFixed; }
+
   bool has_elastic_gear() const { return actuator && actuator->elastic; }
   /// Whether the torque that the actuator's gear transmits is known: a loss in proportion to it
   /// needs it, (9b), and a spring determines it, (9c).
@@ -208,7 +222,7 @@ PairKind kind_of(const JointDescription& joint);
 /// Whether `<limit lower upper>` bounds the joint's position. On a continuous joint URDF ignores
 /// both.
 inline bool has_stops(const JointDescription& joint) {
-  return joint.limit && joint.limit->bounds_position() && joint.type != JointType::kContinuous;
+  return joint.limit && joint.limit->bounds_position() && joint.law().needs_limit;
 }
 
 /// URDF+ `<coupling>`: the joints up to the successor move `ratio` times as far as the joints up to

@@ -18,7 +18,7 @@ const SignalFacts* find_facts(Condition&& condition) {
 
 }  // namespace
 
-bool has_coordinate(const JointDescription& joint) { return has_one_coordinate(joint.type); }
+bool has_coordinate(const JointDescription& joint) { return joint.has_one_coordinate(); }
 bool has_actuator(const JointDescription& joint) { return joint.actuator.has_value(); }
 bool has_elastic_gear(const JointDescription& joint) { return joint.has_elastic_gear(); }
 bool has_gear_loss(const JointDescription& joint) { return joint.actuator && joint.actuator->gear; }
@@ -29,9 +29,7 @@ bool has_friction(const JointDescription& joint) {
 bool has_normal_force(const JointDescription& joint) {
   return joint.friction ? !joint.friction->is_direct : !joint.dry_friction.is_zero();
 }
-bool is_movable(const JointDescription& joint) {
-  return joint.type != JointType::kFixed || joint.is_loop;
-}
+bool is_movable(const JointDescription& joint) { return !joint.is_fixed() || joint.is_loop; }
 
 const SignalFacts* find_quantity(SignalOwner owner, const std::string& quantity) {
   return find_facts([&](const SignalFacts& facts) {

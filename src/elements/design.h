@@ -29,6 +29,7 @@ struct LoadNumbers {
 template <class T>
 struct ObjectiveNumbers {
   std::vector<T> weights;
+  std::vector<T> scales;  ///< of losses; 1 where a loss has none
   std::vector<Reference<T>> references;
 };
 
@@ -99,9 +100,11 @@ void Design<T>::set(const System& system, const std::vector<T>& values) {
   const auto evaluate = [this](const std::vector<ObjectiveTerm>& terms,
                                ObjectiveNumbers<T>* numbers) {
     numbers->weights.clear();
+    numbers->scales.clear();
     numbers->references.resize(terms.size());
     for (std::size_t k = 0; k < terms.size(); ++k) {
       numbers->weights.push_back(terms[k].weight.at(parameters));
+      numbers->scales.push_back(terms[k].loss->has_scale ? terms[k].scale.at(parameters) : T(1.0));
       numbers->references[k].set(terms[k].reference, parameters);
     }
   };

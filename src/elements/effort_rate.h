@@ -78,9 +78,11 @@ T drive_effort_rate(const StateView<T>& view, int controller) {
 template <class T>
 T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
   T rate(0.0), demand(0.0);
-  for (int controller : load.controllers) rate += drive_effort_rate(view, controller);
-  if (!load.saturated) return rate;
-  for (int controller : load.controllers) demand += drive_effort(view, controller);
+  const auto* effort = load.find<ControllerEffort>();
+  if (!effort) return rate;
+  for (int controller : effort->controllers) rate += drive_effort_rate(view, controller);
+  if (!effort->saturated) return rate;
+  for (int controller : effort->controllers) demand += drive_effort(view, controller);
   const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).slope * rate;
 }

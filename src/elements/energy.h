@@ -16,36 +16,10 @@ namespace codesign {
 // The powers [W] of theory (14c), positive where energy goes into the mechanism. A load L opposes
 // the coordinate, so its power is -L theta'.
 
-/// The part of a coordinate's load L that belongs to one kind of power.
-template <class T>
-T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, const T& rate) {
-  switch (kind) {
-    case PowerKind::kFriction:
-      return friction_load(view, load, rate);
-    case PowerKind::kDamping: {
-      JointLoad part;
-      part.pair = load.pair;
-      part.element = load.element;
-      part.passive = load.passive;
-      const T value = joint_load(view, part, rate);
-      return load.stop ? T(value + stop_dissipation(view, load, rate)) : value;
-    }
-    case PowerKind::kActuator:
-      return -applied_effort(view, load);
-    case PowerKind::kLoad:
-      break;
-  }
-  return -given_effort(view, load);
-}
-
 /// The power of one kind along one joint coordinate; zero if no load of that kind acts there.
 template <class T>
 T load_power(const StateView<T>& view, PowerKind kind, const JointLoad& load) {
-  const bool acts = kind == PowerKind::kFriction   ? load.has_friction()
-                    : kind == PowerKind::kDamping  ? load.passive || load.stop
-                    : kind == PowerKind::kActuator ? !load.controllers.empty()
-                                                   : !load.given.empty();
-  if (!acts) return T(0.0);
+  if (!load.has_power(kind)) return T(0.0);
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   return -load_of_kind(view, kind, load, rate) * rate;
 }
@@ -97,7 +71,9 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
       sum += load_power(view, kind, load);
   if (const int gear = elastic_gear_of(view.system, pair, element); gear >= 0) {
     for (const JointLoad& load : view.system.loads())
-      if (load.is_motor && load.elastic == gear) sum += load_power(view, kind, load);
+      if (const auto* side = load.find<ElasticGearSide>();
+          side && side->is_motor && side->gear == gear)
+        sum += load_power(view, kind, load);
     if (kind == PowerKind::kDamping) sum += elastic_power(view, gear);
   }
   if (kind == PowerKind::kActuator) sum += drive_power(view, pair, element);
@@ -109,23 +85,11 @@ T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
 
 // The mechanical energy [J], theory (14b).
 
-/// The elastic energy of the torsion spring and of the stops of one joint coordinate, k (theta -
-/// theta_0)^2/2 and the integral of k delta.
+/// The elastic energy of the torsion spring and of the stops of one joint coordinate.
 template <class T>
 T joint_energy(const StateView<T>& view, const JointLoad& load) {
-  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
-  const T position = view.coordinate_value(load.pair, load.element);
   T energy(0.0);
-  if (load.spring) {
-    const T turned = position - d.free_position;
-    energy += T(0.5) * d.stiffness * turned * turned;
-  }
-  if (load.stop) {
-    const StopConstants<T>& stop = d.stop;
-    const T below = d.lower - position, above = position - d.upper;
-    energy += stop_energy<T>(above, stop.stiffness, stop.width) +
-              stop_energy<T>(below, stop.stiffness, stop.width);
-  }
+  load.for_each([&](const auto& part) { energy += part_energy(view, load, part); });
   return energy;
 }
 
@@ -176,8 +140,7 @@ T potential_energy(const StateView<T>& view) {
   }
   for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
     energy += spring_energy_at(view, k);
-  for (const JointLoad& load : view.system.loads())
-    if (load.needs_position()) energy += joint_energy(view, load);
+  for (const JointLoad& load : view.system.loads()) energy += joint_energy(view, load);
   for (std::size_t k = 0; k < view.system.elastic_gears().size(); ++k)
     energy += elastic_energy(view, static_cast<int>(k));
   return energy;

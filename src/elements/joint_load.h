@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <type_traits>
+
 #include "elements/body.h"
 #include "elements/contact.h"
 #include "elements/controllers.h"
@@ -30,10 +32,11 @@ T sliding_friction(const FrictionLaw& law, bool directional, const T& u,
 /// The viscous part of annotated friction [N or N m], theory (13), (10a), (48).
 /// @param rate of the coordinate. @param radius sliding velocity per rate.
 template <class T>
-T viscous_load(const JointLoad& load, const T& rate, const T& radius,
+T viscous_load(const BearingFriction& friction, const T& rate, const T& radius,
                const FrictionConstants<T>& c) {
-  const T linear = load.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
-  if (!load.viscous_power) return linear;
+  const T linear =
+      friction.directional ? directional_viscous<T>(rate, radius, c) : T(c.viscous * rate);
+  if (!friction.viscous_power) return linear;
   return linear * viscous_power<T>(rate, T(c.transition_velocity / radius), c.viscous_exponent);
 }
 
@@ -43,58 +46,28 @@ T viscous_load(const JointLoad& load, const T& rate, const T& radius,
 /// @param rate of the coordinate. @param state receives velocity, normal force and load, if not
 /// null.
 template <class T>
-T annotated_friction(const StateView<T>& view, const JointLoad& load, const T& rate,
+T annotated_friction(const StateView<T>& view, const JointLoad& load,
+                     const BearingFriction& friction, const T& rate,
                      std::common_type_t<FrictionState<T>*> state) {
   const FrictionConstants<T>& c = view.constants(load.pair).friction;
   const bool turning = view.coordinate_constants(load.pair, load.element).kind ==
                        CoordinateConstants<T>::Kind::kTurn;
-  const T N = load.direct ? T(1.0) : normal_force(view, load.pair);
+  const T N = friction.direct ? T(1.0) : normal_force(view, load.pair);
   const T radius = turning ? c.pin_radius : T(1.0);
   const T u = radius * rate;
   T mu;
   if (const BristleContact* bristle = view.system.bristle(load.pair, load.element))
     mu = bristle_law<T>(*bristle, Vector3<T>(u, T(0.0), T(0.0)), view.state->s, c).mu[0];
   else
-    mu = sliding_friction<T>(view.system.friction_law(load.pair), load.directional, u, c);
-  const T value = radius * mu * N + viscous_load(load, rate, radius, c);
-  if (state) *state = {rate, load.direct ? T(0.0) : N, value};
+    mu = sliding_friction<T>(view.system.friction_law(load.pair), friction.directional, u, c);
+  const T value = radius * mu * N + viscous_load(friction, rate, radius, c);
+  if (state) *state = {rate, friction.direct ? T(0.0) : N, value};
   return value;
 }
 
 // Loads along joint coordinates [N or N m], theory (13). A load L is positive against the
 // coordinate, so that J^T L is added to the rows of motion; an effort (of a controller, or of a
 // load) is positive along the coordinate and counts as -L.
-
-/// The sum of the study's efforts on a coordinate, theory (13g).
-template <class T>
-T given_effort(const StateView<T>& view, const JointLoad& load) {
-  T sum(0.0);
-  for (int k : load.given)
-    sum += load_value(view, view.design.loads[to_index(k)].effort,
-                      view.system.load_signals()[to_index(k)].effort);
-  return sum;
-}
-
-/// L of damping, torsion spring and `<dynamics friction>`, end of theory (13); `load` selects the
-/// ones that act.
-/// @param rate of the coordinate, here and below.
-template <class T>
-T passive_load(const StateView<T>& view, int pair, int element, const JointLoad& load,
-               const T& rate) {
-  const JointDynamicsConstants<T>& d = view.dynamics(pair, element);
-  T value(0.0);
-  if (load.passive) {
-    value = (d.damping + d.spring_damping) * rate;
-    if (load.spring)
-      value += d.stiffness * (view.coordinate_value(pair, element) - d.free_position);
-  }
-  if (load.constant_friction) {
-    const int joint = view.pair(pair).chain[to_index(element)].joint;
-    const double v_t = view.system.robot().joints[to_index(joint)].dry_transition_velocity;
-    value += d.dry_friction * brown_mcphee<T>(rate, T(1.0), T(1.0), T(v_t));
-  }
-  return value;
-}
 
 /// The decisions of stops, as parts for name_part().
 constexpr int kUpperStop = 0, kLowerStop = 1;
@@ -134,26 +107,119 @@ T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rat
 template <class T>
 T applied_effort(const StateView<T>& view, const JointLoad& load) {
   T demand(0.0);
-  for (int controller : load.controllers) demand += drive_effort(view, controller);
-  if (!load.saturated) return demand;
+  const auto* effort = load.find<ControllerEffort>();
+  if (!effort) return demand;
+  for (int controller : effort->controllers) demand += drive_effort(view, controller);
+  if (!effort->saturated) return demand;
   const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).value;
 }
 
-/// What acts on the joint's own side of a gear: friction of the bearing, damping, spring, stop and
-/// the other side of an elastic gear, minus efforts of loads.
+template <class T>
+T gear_load(const StateView<T>& view, const JointLoad& load, const T& rate);
+
+// part_load(): the load L of one kind. @param rate of the coordinate.
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const BearingFriction& friction,
+            const T& rate) {
+  return annotated_friction(view, load, friction, rate, nullptr);
+}
+
+/// L of damping and torsion spring, end of theory (13).
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const PassiveLoad& passive,
+            const T& rate) {
+  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
+  T value = (d.damping + d.spring_damping) * rate;
+  if (passive.has_spring)
+    value += d.stiffness * (view.coordinate_value(load.pair, load.element) - d.free_position);
+  return value;
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const DryFriction&, const T& rate) {
+  const int joint = view.pair(load.pair).chain[to_index(load.element)].joint;
+  const double v_t = view.system.robot().joints[to_index(joint)].dry_transition_velocity;
+  return view.dynamics(load.pair, load.element).dry_friction *
+         brown_mcphee<T>(rate, T(1.0), T(1.0), T(v_t));
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const StopLoad&, const T& rate) {
+  return stop_load(view, load, rate, stop_of(view, load).dissipation);
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad&, const ElasticGearSide& side, const T&) {
+  const T tau = elastic_torque(view, side.gear);
+  return side.is_motor ? tau : T(-tau);
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad&, const GivenEffort& given, const T&) {
+  return -load_value(view, view.design.loads[to_index(given.load)].effort,
+                     view.system.load_signals()[to_index(given.load)].effort);
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const GearLoss&, const T& rate) {
+  return gear_load(view, load, rate);
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad& load, const ControllerEffort&, const T&) {
+  return -applied_effort(view, load);
+}
+
+// powered_load(): what of it has the kind of power that it is counted with; forces of springs have
+// none.
+
+template <class T, class Part>
+T powered_load(const StateView<T>& view, const JointLoad& load, const Part& part, const T& rate) {
+  return part_load(view, load, part, rate);
+}
+template <class T>
+T powered_load(const StateView<T>& view, const JointLoad& load, const PassiveLoad&, const T& rate) {
+  return part_load(view, load, PassiveLoad{}, rate);
+}
+template <class T>
+T powered_load(const StateView<T>& view, const JointLoad& load, const StopLoad&, const T& rate) {
+  return stop_dissipation(view, load, rate);
+}
+
+// part_energy(): the elastic energy [J], theory (14b).
+
+template <class T, class Part>
+T part_energy(const StateView<T>&, const JointLoad&, const Part&) {
+  return T(0.0);
+}
+/// k (theta - theta_0)^2/2
+template <class T>
+T part_energy(const StateView<T>& view, const JointLoad& load, const PassiveLoad& passive) {
+  if (!passive.has_spring) return T(0.0);
+  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
+  const T turned = view.coordinate_value(load.pair, load.element) - d.free_position;
+  return T(0.5) * d.stiffness * turned * turned;
+}
+/// The integral of k delta.
+template <class T>
+T part_energy(const StateView<T>& view, const JointLoad& load, const StopLoad&) {
+  const JointDynamicsConstants<T>& d = view.dynamics(load.pair, load.element);
+  const T position = view.coordinate_value(load.pair, load.element), below = d.lower - position,
+          above = position - d.upper;
+  return stop_energy<T>(above, d.stop.stiffness, d.stop.width) +
+         stop_energy<T>(below, d.stop.stiffness, d.stop.width);
+}
+
+/// What acts on the joint's own side of a gear.
 template <class T>
 T link_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   T value(0.0);
-  if (load.friction) value += annotated_friction(view, load, rate, nullptr);
-  if (load.passive || load.constant_friction)
-    value += passive_load(view, load.pair, load.element, load, rate);
-  if (load.stop) value += stop_load(view, load, rate, stop_of(view, load).dissipation);
-  if (load.elastic >= 0) {
-    const T tau = elastic_torque(view, load.elastic);
-    value += load.is_motor ? tau : T(-tau);
-  }
-  if (!load.given.empty()) value -= given_effort(view, load);
+  load.for_each([&](const auto& part) {
+    if constexpr (!std::decay_t<decltype(part)>::kBehindGear)
+      value += part_load(view, load, part, rate);
+  });
   return value;
 }
 
@@ -178,7 +244,8 @@ T coupling_load(const StateView<T>& view, int pair, int element, bool of_drive) 
 /// what the child and the loads on the joint's side need.
 template <class T>
 T gear_torque(const StateView<T>& view, const JointLoad& load, const T& rate) {
-  if (load.is_motor) return elastic_torque(view, load.elastic);
+  const auto* side = load.find<ElasticGearSide>();
+  if (side && side->is_motor) return elastic_torque(view, side->gear);
   if (load.gear_unknown >= 0) return view.state->z[view.layout.gear_column(load.gear_unknown)];
   const auto body = to_index(view.layout.forest.body_below[to_index(load.pair)]);
   std::array<T, 6> rows;
@@ -205,17 +272,26 @@ T gear_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
   const GearConstants<T>& c = view.dynamics(load.pair, load.element).gear;
   const T mu = gear_slip(view, load, rate);
   T value = mu * c.coulomb + c.viscous * rate;
-  if (load.gear_transmits) value += gear_loss(gear_torque(view, load, rate), mu, c);
+  if (load.has_gear_torque) value += gear_loss(gear_torque(view, load, rate), mu, c);
   return value;
 }
 
-/// The whole load L along a coordinate: friction, damping, spring, stop and gear minus efforts of
-/// loads and of controllers. The effort of a given motion is not part of it: it is a multiplier.
+/// The whole load L along a coordinate. The effort of a given motion is not part of it: it is a
+/// multiplier.
 template <class T>
 T joint_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
-  T value = link_load(view, load, rate);
-  if (load.gear) value += gear_load(view, load, rate);
-  if (!load.controllers.empty()) value -= applied_effort(view, load);
+  T value(0.0);
+  load.for_each([&](const auto& part) { value += part_load(view, load, part, rate); });
+  return value;
+}
+
+/// What of the load L along a coordinate has this kind of power.
+template <class T>
+T load_of_kind(const StateView<T>& view, PowerKind kind, const JointLoad& load, const T& rate) {
+  T value(0.0);
+  load.for_each([&](const auto& part) {
+    if (part.kPower == kind) value += powered_load(view, load, part, rate);
+  });
   return value;
 }
 
@@ -227,33 +303,13 @@ void gear_residual(const StateView<T>& view, const JointLoad& load, VectorX<T>* 
   const T rate = view.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate;
   const int column = view.layout.gear_column(load.gear_unknown);
   T value = view.state->z[column] + coupling_load(view, load.pair, load.element, true);
-  if (load.gear) value += gear_load(view, load, rate);
-  if (!load.controllers.empty()) value -= applied_effort(view, load);
+  load.for_each([&](const auto& part) {
+    if constexpr (std::decay_t<decltype(part)>::kBehindGear)
+      value += part_load(view, load, part, rate);
+  });
   for (const Rotor& rotor : view.system.rotors())
     if (rotor.pair == load.pair && rotor.element == load.element) value += rotor_load(view, rotor);
   (*G)[column] = value;
-}
-
-/// The friction of a load without gear and other parts. A copy of `load` would also copy its lists,
-/// which allocates memory.
-inline JointLoad friction_part(const JointLoad& load) {
-  JointLoad part;
-  part.pair = load.pair;
-  part.element = load.element;
-  part.friction = load.friction;
-  part.direct = load.direct;
-  part.directional = load.directional;
-  part.viscous_power = load.viscous_power;
-  part.constant_friction = load.constant_friction;
-  return part;
-}
-
-/// The load L of all friction along a coordinate, of joint, gear and motor.
-template <class T>
-T friction_load(const StateView<T>& view, const JointLoad& load, const T& rate) {
-  T value = link_load(view, friction_part(load), rate);
-  if (load.gear) value += gear_load(view, load, rate);
-  return value;
 }
 
 /// Adds J^T L to the rows of motion.
@@ -275,13 +331,10 @@ FrictionState<T> joint_friction(const StateView<T>& view, int pair, int element)
   for (const JointLoad& load : view.system.loads()) {
     if (load.pair != pair || load.element != element) continue;
     state.velocity = rate;
-    if (load.friction) annotated_friction(view, load, rate, &state);
-    if (load.constant_friction) {
-      JointLoad dry = load;
-      dry.passive = dry.spring = false;
-      state.load += passive_load(view, pair, element, dry, rate);
-    }
-    if (load.gear) state.load += gear_load(view, load, rate);
+    if (const auto* friction = load.find<BearingFriction>())
+      annotated_friction(view, load, *friction, rate, &state);
+    if (const auto* dry = load.find<DryFriction>()) state.load += part_load(view, load, *dry, rate);
+    if (load.find<GearLoss>()) state.load += gear_load(view, load, rate);
   }
   return state;
 }

@@ -116,7 +116,7 @@ T joint_effort_rate(const StateView<T>& view, const CoordinateIndex& of) {
 template <class T>
 T joint_friction(const StateView<T>& view, const CoordinateIndex& of) {
   return -sum_of_loads(view, of, [&](const JointLoad& load) {
-    return friction_load(view, load, joint_rate(view, of));
+    return load_of_kind(view, PowerKind::kFriction, load, joint_rate(view, of));
   });
 }
 /// What a gear and its motor lose, -L of (9b).
@@ -235,15 +235,24 @@ T signal_error(const StateView<T>& view, const Signal& signal, const Reference<T
   return signal_value(view, signal) - moving.at(view.state->t).value;
 }
 
-/// The sum of weight (signal - reference)^2 over terms of the objective: the integrand g or the
+/// What the loss of the k-th of these terms is a function of.
+template <class T>
+LossValues<T> loss_values(const StateView<T>& view, const std::vector<ResolvedTerm>& terms,
+                          const ObjectiveNumbers<T>& numbers, std::size_t k) {
+  const T reference = numbers.references[k].at(view.state->t).value;
+  return {signal_value(view, terms[k].signal), reference, numbers.scales[k]};
+}
+
+/// The sum of weight rho(signal - reference) over terms of the objective: the integrand g or the
 /// terminal terms w of theory (21).
 template <class T>
 T objective_terms(const StateView<T>& view, const std::vector<ResolvedTerm>& terms,
                   const ObjectiveNumbers<T>& numbers) {
   T sum(0.0);
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    const T error = signal_error(view, terms[k].signal, numbers.references[k]);
-    sum += numbers.weights[k] * error * error;
+    const LossValues<T> values = loss_values(view, terms, numbers, k);
+    const NamedSwitches<T> named(values.signal, terms[k]);
+    sum += weighted_loss(*terms[k].loss, numbers.weights[k], values);
   }
   return sum;
 }

@@ -57,9 +57,9 @@ class Formulas {
 
   /// The sum w of the terminal terms of the objective, theory (21).
   T terminal(const State<T>& state);
-  /// sqrt(weight) (signal - reference) of each term of the integrand g or of the terminal terms w,
-  /// whose squares are the terms, theory (22a). Zero for a weight that is not positive, where the
-  /// root has no derivative.
+  /// sqrt(weight) loss_root() of each term of the integrand g or of the terminal terms w, whose
+  /// squares are the terms, theory (22a). Zero for a weight that is not positive, where the root
+  /// has no derivative, and for a loss that is no square.
   void residuals(ObjectivePart part, const State<T>& state, VectorX<T>* residuals);
   /// Signal minus reference of the k-th watched signal, theory (21a), in SI units.
   T watched(std::size_t k, const State<T>& state);

@@ -114,7 +114,7 @@ void Formulas<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<T
     (*residuals)[to_signed(k)] =
         is_less(T(0.0), numbers.weights[k], true)
             ? T(sqrt(numbers.weights[k]) *
-                signal_error(view_, terms[k].signal, numbers.references[k]))
+                loss_root(*terms[k].loss, loss_values(view_, terms, numbers, k)))
             : T(0.0);
 }
 

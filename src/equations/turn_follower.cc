@@ -18,9 +18,8 @@ constexpr double kProportional = 0.1, kDoubtful = 0.8;
 constexpr double kTurnOfBody = 2.1;
 constexpr int kMostPoints = 10000;  // more only in an attempt that no error test accepts
 
-bool may_turn(JointType type) {
-  return type != JointType::kFixed && type != JointType::kPrismatic && type != JointType::kFloating;
-}
+/// A pair that constrains nothing has no scalar coordinate.
+bool may_turn(const JointLaw& law) { return law.freedoms.turns > 0 && law.rows > 0; }
 
 /// Keeps the entries that only one of two chains to a common body has.
 void drop_pairs(std::vector<int>* columns) {
@@ -55,7 +54,7 @@ void TurnFollower<T>::add_ways() {
     const std::size_t before = slots_.size();
     if (!system_.layout().is_cut(pair)) continue;
     for (std::size_t e = 0; e < pairs[p].chain.size(); ++e)
-      if (may_turn(system_.robot().joints[to_index(pairs[p].chain[e].joint)].type))
+      if (may_turn(system_.robot().joints[to_index(pairs[p].chain[e].joint)].law()))
         slots_.push_back(system_.layout().turn(pair, static_cast<int>(e)));
     if (slots_.size() == before) continue;
     Way way;
@@ -78,11 +77,12 @@ void TurnFollower<T>::note_ways(int body, Way* way) const {
   for (; body >= 0 && !layout.is_free(body);) {
     const auto above = to_index(layout.forest.pair_above[to_index(body)]);
     const Pair& pair = system_.topology().pairs[above];
-    const int first = layout.column(body);
-    if (layout.forest.is_plane[above]) way->turns.push_back(first + 2);
-    for (std::size_t e = 0; !layout.forest.is_plane[above] && e < pair.chain.size(); ++e)
-      if (is_turn(system_.robot().joints[to_index(pair.chain[e].joint)].type))
-        way->turns.push_back(first + static_cast<int>(e));
+    int column = layout.column(body);
+    for (const ChainElement& element : pair.chain) {
+      const JointFreedoms& freedoms = system_.robot().joints[to_index(element.joint)].freedoms();
+      for (int k = 0; k < freedoms.size(); ++k, ++column)
+        if (freedoms.each[to_index(k)].turns) way->turns.push_back(column);
+    }
     body = pair.body_i;
   }
   if (body >= 0) way->free.push_back(layout.column(body) + 3);

@@ -86,7 +86,7 @@ void add_excited(const Problem& problem, const ExcitedJoint& excited, MotionLimi
 
 void add_follower(const Problem& problem, std::size_t index, MotionLimits* limits) {
   const JointDescription& joint = robot_of(problem).joints[index];
-  if (joint.is_loop || !has_one_coordinate(joint.type)) return;
+  if (joint.is_loop || !joint.has_one_coordinate()) return;
   const std::vector<MotionLimitDescription>& described = study_of(problem).excitation->followers;
   const auto more =
       std::find_if(described.begin(), described.end(),

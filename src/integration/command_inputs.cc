@@ -21,8 +21,8 @@ using Kind = CoordinateConstants<double>::Kind;
 bool is_drivable(const CompiledSystem& system, const Constants<double>& constants, std::size_t k) {
   const JointDescription& joint = system.robot().joints[k];
   const int pair = system.topology().joint_pair[k];
-  if (joint.is_motor || joint.is_loop || joint.mimic || !has_one_coordinate(joint.type) ||
-      pair < 0 || has_given_motion(system.study(), joint.name))
+  if (joint.is_motor || joint.is_loop || joint.mimic || !joint.has_one_coordinate() || pair < 0 ||
+      has_given_motion(system.study(), joint.name))
     return false;
   const std::vector<ChainElement>& chain = system.topology().pairs[to_index(pair)].chain;
   const auto& coordinates = constants.pairs[to_index(pair)].coordinates;

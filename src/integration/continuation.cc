@@ -58,7 +58,7 @@ Status Continuation::cross(const std::vector<double>& parameters, bool interpola
   const std::vector<double> before = equations->parameters();
   const bool changes = parameters != before;
   Status status = changes ? change_design(parameters, assembly, equations, state) : Status();
-  if (status.ok()) status = assembly->solve_rates(equations, state);
+  if (status.ok()) status = assembly->rates().solve(equations, state);
   if (!status.ok() && changes) equations->set_design(before);
   return status;
 }

@@ -27,7 +27,7 @@ class Continuation {
   /// @param state of the run at the instant; receives the state after it. Do not use it after a
   /// failure.
   /// @returns kInvalidDesign for impossible constants, a status of Assembly::solve_from() or
-  /// Assembly::solve_rates(), kAssemblyFailed also if a joint's coordinate cannot be computed.
+  /// RateSolution::solve(), kAssemblyFailed also if a joint's coordinate cannot be computed.
   Status cross(const std::vector<double>& parameters, bool interpolated, Assembly* assembly,
                Equations<double>* equations, State<double>* state);
 

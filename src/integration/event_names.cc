@@ -33,7 +33,9 @@ class FormulaPlaces {
  public:
   explicit FormulaPlaces(const System& system) : system_(system), study_(system.study()) {}
 
-  SwitchName find(const SourceId& source) {
+  /// @param part of a loss its kink.
+  SwitchName find(const SourceId& source, int part) {
+    if (const auto* term = source.as<ResolvedTerm>()) return of_loss(*term, part);
     formula_ = source.as<ResolvedFormula>();
     of_time_ = source.as<Expression>();
     if (system_.until() != nullptr) look(*system_.until(), "until", "");
@@ -50,6 +52,14 @@ class FormulaPlaces {
   }
 
  private:
+  /// Terminal terms are read at one instant, and have no events.
+  SwitchName of_loss(const ResolvedTerm& term, int part) const {
+    constexpr std::array<const char*, 3> kKinks{"", " + scale", " - scale"};  // of LossKink
+    const std::string text = study_.integral[to_index(term.description)].signal.text;
+    return {"objective.integral[" + std::to_string(term.description) + "].loss", "",
+            part < 0 ? term.loss->name : text + " > reference" + kKinks.at(to_index(part))};
+  }
+
   void look(const Signal& signal, const std::string& element, const std::string& object) {
     if (formula_ && signal.formula.get() == formula_) take(element, object);
   }
@@ -125,7 +135,7 @@ SwitchName name_of(const System& system, const SwitchOrigin* origin) {
             std::string(bristle->gear ? "gear: " : "") +
                 (origin->part == kBristleCut ? "friction at its limit" : "end of the dwell")};
   }
-  SwitchName name = FormulaPlaces(system).find(source);
+  SwitchName name = FormulaPlaces(system).find(source, origin->part);
   if (name.element.empty()) name.element = "study";
   if (const auto* formula = source.as<ResolvedFormula>())
     name.expression = text_of(formula->steps, origin->part, formula->text);

@@ -41,7 +41,7 @@ void ExpressionWatch::use(const RosenbrockTableau& tableau) {
   weights_ = quadrature(nodes_);
 }
 
-bool ExpressionWatch::evaluate(RosenbrockStep<double>* step) {
+bool ExpressionWatch::evaluate(OneStep<double>* step) {
   const auto at = [&](double theta) {
     step->interpolate_attempt(theta, &point_);
     step->equations().compiled().expressions(point_, &values_);
@@ -76,7 +76,7 @@ double ExpressionWatch::simpson(Eigen::Index expression) const {
 // farthest from what the step knows: there the rates are solved for and compared with the dense
 // output.
 double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
-                                       const SolverOptions& options, RosenbrockStep<double>* step,
+                                       const SolverOptions& options, OneStep<double>* step,
                                        Assembly* assembly) {
   int farthest = 0;
   double deviation = 0.0;
@@ -94,7 +94,7 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
   if (!(deviation > 0.0)) return 0.0;
   step->interpolate_attempt(static_cast<double>(farthest) / intervals_, &point_);
   solved_ = point_;
-  if (!assembly->solve_rates(&step->equations(), &solved_).ok()) return 0.0;
+  if (!assembly->rates().solve(&step->equations(), &solved_).ok()) return 0.0;
   const Layout& layout = system_.layout();
   double largest = 0.0;
   const auto look = [&](Eigen::Index rate, double size) {
@@ -111,7 +111,7 @@ double ExpressionWatch::largest_effect(Eigen::Index expression, double missed,
   return largest;
 }
 
-double ExpressionWatch::error(const SolverOptions& options, RosenbrockStep<double>* step,
+double ExpressionWatch::error(const SolverOptions& options, OneStep<double>* step,
                               Assembly* assembly) {
   // Differences that the error of the step itself can have are not what was passed over.
   constexpr double kOwnError = 10.0, kRounding = 1e-12;

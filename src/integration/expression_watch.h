@@ -5,7 +5,7 @@
 
 #include "assembly/assembly.h"
 #include "description/solver_options.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 namespace codesign {
 
@@ -27,17 +27,17 @@ class ExpressionWatch {
   /// The error of the last attempt that its own estimate does not see, in units of the tolerance;
   /// 0 without expressions of signals.
   /// @param assembly solves for rates at points of the step.
-  double error(const SolverOptions& options, RosenbrockStep<double>* step, Assembly* assembly);
+  double error(const SolverOptions& options, OneStep<double>* step, Assembly* assembly);
 
  private:
   static constexpr int kPerStudy = 4096, kLeast = 8;
 
   void use(const RosenbrockTableau& tableau);
   /// False if the number of expressions changes on the way.
-  bool evaluate(RosenbrockStep<double>* step);
+  bool evaluate(OneStep<double>* step);
   double simpson(Eigen::Index expression) const;
   double largest_effect(Eigen::Index expression, double missed, const SolverOptions& options,
-                        RosenbrockStep<double>* step, Assembly* assembly);
+                        OneStep<double>* step, Assembly* assembly);
 
   const CompiledSystem& system_;
   bool is_active_ = false;  ///< whether there can be expressions of signals

@@ -71,8 +71,8 @@ Status IdasIntegrator::assemble(const std::vector<double>& parameters) {
         return assemble_start(system_, design, &assembly_, &equations(), &initial_);
       },
       [this] {
-        assembly_.keep_pivots();
-        newton_.keep_pivots_of(assembly_.rates_matrix());
+        assembly_.rates().keep_pivots();
+        newton_.keep_pivots_of(assembly_.rates().matrix());
       });
 }
 
@@ -180,7 +180,7 @@ Status IdasIntegrator::jump() {
   if (events.empty()) return {};
   before_jump_ = state_;
   equations().jump(events, &state_);
-  if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
+  if (Status status = assembly_.rates().solve(&equations(), &state_); !status.ok()) return status;
   return begin_anew(
       [&] { return carried_->jump(events, before_jump_, state_, &equations(), &directions_); });
 }
@@ -214,7 +214,7 @@ Status IdasIntegrator::project() {
   if (!projection_.apply(&equations(), &state_))
     return {StatusCode::kSingularMatrix, state_.t,
             "the augmented matrix of the equations of motion is singular"};
-  if (Status status = assembly_.solve_rates(&equations(), &state_); !status.ok()) return status;
+  if (Status status = assembly_.rates().solve(&equations(), &state_); !status.ok()) return status;
   if (with_sensitivities()) warn_of_restart();
   const auto project = [this] { return carried_->project(state_, &equations(), &directions_); };
   if (Status status = begin_anew(project); !status.ok()) return status;

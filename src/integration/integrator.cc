@@ -16,7 +16,7 @@ void Integrator::obey(const std::atomic<bool>* cancel) {
   assembly().obey(cancel);
 }
 
-double Integrator::of_squares(double integral, double terminal) {
+double Integrator::of_losses(double integral, double terminal) {
   const double psi = integral + terminal;
   if (!(psi < 0.0)) return psi;
   const auto& design = equations().formulas().view().design;
@@ -65,6 +65,27 @@ std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
   return std::make_unique<RosenbrockIntegrator>(system);
 }
 
+namespace {
+
+/// A scale of a loss that the design makes impossible; empty if there is none.
+std::string find_impossible(const std::vector<ResolvedTerm>& terms,
+                            const std::vector<double>& scales, const std::string& list) {
+  for (std::size_t k = 0; k < terms.size(); ++k)
+    if (terms[k].loss->has_scale && !(scales[k] > 0.0))
+      return "objective." + list + "[" + std::to_string(k) + "].scale is " + readable(scales[k]) +
+             ", which must be above 0";
+  return "";
+}
+
+std::string find_impossible_scale(const CompiledSystem& system, const Design<double>& design) {
+  const std::string fault = find_impossible(system.integral(), design.integral.scales,
+                                            system.study().postures > 0 ? "sum" : "integral");
+  return fault.empty() ? find_impossible(system.terminal(), design.terminal.scales, "terminal")
+                       : fault;
+}
+
+}  // namespace
+
 Status check_design(const CompiledSystem& system, const Equations<double>& equations) {
   if (std::string fault = find_impossible(system.robot(), system.topology(), equations.constants());
       !fault.empty())
@@ -83,6 +104,9 @@ Status check_design(const CompiledSystem& system, const Equations<double>& equat
             find_impossible(controllers[c], equations.formulas().view().design.controllers[c]);
         !fault.empty())
       return {StatusCode::kInvalidDesign, 0.0, fault};
+  if (std::string fault = find_impossible_scale(system, equations.formulas().view().design);
+      !fault.empty())
+    return {StatusCode::kInvalidDesign, 0.0, fault};
   return {};
 }
 

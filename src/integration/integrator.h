@@ -43,9 +43,9 @@ class Integrator {
   /// Integral of the objective's integrand g from 0 to state().t, doc/theory.md (21).
   virtual double psi() const = 0;
   /// The objective so far, with its terminal terms only if they are given; zero where the error of
-  /// the steps has made a sum of squares negative, doc/theory.md (21).
+  /// the steps has made a sum of losses negative, doc/theory.md (21).
   /// @param integral psi() or a value of it by interpolate().
-  double of_squares(double integral, double terminal = 0.0);
+  double of_losses(double integral, double terminal = 0.0);
   /// Dense output at `time` [s] within the last step: state and psi. Accelerations and multipliers
   /// in `state->z` are of lower accuracy.
   virtual void interpolate(double time, State<double>* state, double* psi) = 0;

@@ -28,7 +28,7 @@ const RosenbrockTableau& first_method(const CompiledSystem& system) {
 /// h times an estimate of the largest |eigenvalue| of the equations from the last two stages of an
 /// explicit pair, which both are at the end of the last attempt (Hairer and Wanner, Solving ODE II,
 /// IV.2). The pair is stable up to 3.3.
-double stiffness(const RosenbrockStep<double>& step, int states) {
+double stiffness(const OneStep<double>& step, int states) {
   const std::size_t last = to_index(step.tableau().stages) - 1;
   const State<double>&at = step.stages()[last], &from = step.stages()[last - 1];
   const double rates =
@@ -56,7 +56,7 @@ const RosenbrockTableau& MethodChoice::start() {
   return *first_;
 }
 
-bool MethodChoice::is_stiff(const RosenbrockStep<double>& step, bool at_bound) {
+bool MethodChoice::is_stiff(const OneStep<double>& step, bool at_bound) {
   if (at_bound || stiffness(step, states_) > kLimit) {
     others_ = 0;
     return ++stiff_ >= kStiffSteps;
@@ -65,14 +65,14 @@ bool MethodChoice::is_stiff(const RosenbrockStep<double>& step, bool at_bound) {
   return false;
 }
 
-bool MethodChoice::is_calm(RosenbrockStep<double>* step) {
+bool MethodChoice::is_calm(OneStep<double>* step) {
   if (--waits_ > 0) return false;
   waits_ = kLooks;
   return step->step_size() * step->spectral_radius(&direction_) < kCalm;
 }
 
 // Each return doubles the pause before the next one, so that a stretch between both costs little.
-const RosenbrockTableau& MethodChoice::next(RosenbrockStep<double>* step, bool at_bound) {
+const RosenbrockTableau& MethodChoice::next(OneStep<double>* step, bool at_bound) {
   const RosenbrockTableau& tableau = step->tableau();
   if (!is_automatic_) return tableau;
   if (tableau.is_explicit()) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "equations/compiled_system.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 namespace codesign {
 
@@ -18,11 +18,11 @@ class MethodChoice {
   const RosenbrockTableau& start();
   /// The method of the next step. @param step after its last attempt was accepted. @param
   /// at_bound StabilityBound::limits() of that attempt.
-  const RosenbrockTableau& next(RosenbrockStep<double>* step, bool at_bound);
+  const RosenbrockTableau& next(OneStep<double>* step, bool at_bound);
 
  private:
-  bool is_stiff(const RosenbrockStep<double>& step, bool at_bound);
-  bool is_calm(RosenbrockStep<double>* step);
+  bool is_stiff(const OneStep<double>& step, bool at_bound);
+  bool is_calm(OneStep<double>* step);
 
   const bool is_automatic_;
   const RosenbrockTableau* first_;
@@ -30,7 +30,7 @@ class MethodChoice {
   int waits_ = 0;               ///< implicit steps before the next look
   int pause_ = 0;               ///< implicit steps before the first look after a change
   const int states_;            ///< entries of an increment before z
-  VectorX<double> direction_;   ///< of RosenbrockStep::spectral_radius()
+  VectorX<double> direction_;   ///< of OneStep::spectral_radius()
 };
 
 }  // namespace codesign

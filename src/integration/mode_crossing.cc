@@ -27,7 +27,7 @@ void move(const State<double>& from, const State<double>& rates, double h, State
 
 // As near behind the crossing as its guard has another sign: the mode that the motion enters. The
 // dense output goes on a little beyond the end of the step.
-std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step) {
+std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, OneStep<double>* step) {
   constexpr double kNearest = 1e-9, kFarther = 10.0;
   for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
     const double place = std::min(1.0 + kBeyond, crossing.to + distance);
@@ -60,7 +60,7 @@ std::vector<bool> ModeWatch::beyond(int guard) const {
 // instant of its own in other designs: two switching times that are equal. The mode in which only
 // the first one is beyond: all others, those that only this mode asks for among them, as they are
 // just before the crossing.
-std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, RosenbrockStep<double>* step) {
+std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, OneStep<double>* step) {
   constexpr double kBefore = 1e-6;
   constexpr int kMost = 64;
   step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
@@ -161,7 +161,7 @@ Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeCh
     mode_ = change->mode;
     equations->hold(mode_);
     change->behind = change->before;
-    if (Status status = assembly->solve_rates(equations, &change->behind); !status.ok())
+    if (Status status = assembly->rates().solve(equations, &change->behind); !status.ok())
       return status;
     const int jumped = turn < mode_.size() ? jumped_guard(*change, equations) : -1;
     if (jumped < 0) return {};
@@ -190,7 +190,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   *change = {};
   change->guard = std::exchange(guard_, -1);
   change->end = change->before = state;
-  if (Status status = assembly->solve_rates(equations, &change->before); !status.ok())
+  if (Status status = assembly->rates().solve(equations, &change->before); !status.ok())
     return status;
   State<double>& before = change->before;
   State<double> rates;
@@ -198,7 +198,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   rates.q = before.v;
   rates.v = before.z.head(system_.layout().n);
   rates.s = before.z.tail(system_.layout().states);
-  assembly->differentiate_rates(before, equations, &rates);
+  assembly->rates().differentiate(before, equations, &rates);
   equations->residual(before, &residual_, &change->g_before);
   along_->hold(mode_);
   if (change->guard >= 0) change->guard_rate = guard_rate(change->guard, before, rates);

@@ -52,14 +52,14 @@ void ModeWatch::restart(Equations<double>* equations) {
   is_due_ = true;
 }
 
-double ModeWatch::side_at(int k, double theta, RosenbrockStep<double>* step) {
+double ModeWatch::side_at(int k, double theta, OneStep<double>* step) {
   step->interpolate_attempt(theta, &point_);
   step->equations().compiled().switches(point_, &residual_, &right_);
   return side(k, residual_);
 }
 
 // At both ends and between them; where a guard is lowest between two points, there as well.
-ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) {
+ModeWatch::Crossing ModeWatch::crossing_of(int k, OneStep<double>* step) {
   const auto at = [&](int point) { return side(k, samples_.col(point)); };
   for (int point = 1; point <= kPoints; ++point) {
     const double to = static_cast<double>(point) / kPoints,
@@ -76,7 +76,7 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, RosenbrockStep<double>* step) 
 
 // As deep as a crossing at kGrazing of the guard's pace: the parabola of range R over the step
 // whose rate at its zeros is kGrazing R per step.
-void ModeWatch::look_for_touch(int k, double place, double value, RosenbrockStep<double>* step) {
+void ModeWatch::look_for_touch(int k, double place, double value, OneStep<double>* step) {
   constexpr double kMoves = 1e4, kWindow = 1e-3;
   constexpr int kMost = 4;
   const auto row = samples_.row(k);
@@ -115,7 +115,7 @@ bool ModeWatch::jumps_beyond(int k, const State<double>& at, Assembly* assembly,
   change.mode = beyond(k);
   const auto solve = [&](const std::vector<bool>& mode, State<double>* state, double* g) {
     equations->hold(mode);
-    if (!assembly->solve_rates(equations, state).ok()) return false;
+    if (!assembly->rates().solve(equations, state).ok()) return false;
     equations->residual(*state, &residual_, g);
     return true;
   };
@@ -136,7 +136,7 @@ void ModeWatch::find_zeros(const State<double>& at, Equations<double>* equations
       zeros->push_back(k);
 }
 
-ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
+ModeWatch::Crossing ModeWatch::first_crossing(OneStep<double>* step) {
   const auto count = to_signed(mode_.size());
   samples_.resize(count, kPoints + 1);
   for (int point = 0; point <= kPoints; ++point) {
@@ -166,7 +166,7 @@ ModeWatch::Crossing ModeWatch::first_crossing(RosenbrockStep<double>* step) {
 
 // An end on a guard, as where a switching time is also an instant at which a controller samples:
 // the guard is crossed before inputs jump.
-ModeWatch::Crossing ModeWatch::crossing_at_end(RosenbrockStep<double>* step) {
+ModeWatch::Crossing ModeWatch::crossing_at_end(OneStep<double>* step) {
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
     const double end = side(k, samples_.col(kPoints)), before = side(k, samples_.col(kPoints - 1));
     if (std::abs(end) <= sizes_[k] && before > sizes_[k] &&
@@ -178,7 +178,7 @@ ModeWatch::Crossing ModeWatch::crossing_at_end(RosenbrockStep<double>* step) {
 
 // The Illinois variant of the regula falsi, on the dense output; with bisections where that is
 // slow, as at a multiple root.
-double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step) {
+double ModeWatch::locate(const Crossing& crossing, OneStep<double>* step) {
   constexpr int kMost = 120, kUsual = 12;
   constexpr double kEnough = 1e-14;
   double a = crossing.from, b = crossing.to, at_a = side_at(crossing.guard, a, step),
@@ -207,7 +207,7 @@ double ModeWatch::locate(const Crossing& crossing, RosenbrockStep<double>* step)
 
 // A step of size h ends where the dense output of the longer one was; its own end differs from that
 // by the error of the dense output, which a few secant steps remove.
-bool ModeWatch::repeat(int guard, double h, RosenbrockStep<double>* step) {
+bool ModeWatch::repeat(int guard, double h, OneStep<double>* step) {
   constexpr int kMost = 6;
   double before = 0.0, value_before = 0.0;
   for (int k = 0; k < kMost; ++k) {
@@ -249,7 +249,7 @@ bool ModeWatch::is_undefined_before(const Crossing& crossing) {
   return undefined_ >= 0;
 }
 
-bool ModeWatch::cut(RosenbrockStep<double>* step) {
+bool ModeWatch::cut(OneStep<double>* step) {
   guard_ = undefined_ = -1;
   if (!is_active()) return true;
   is_due_ = false;

@@ -8,7 +8,7 @@
 #include "assembly/assembly.h"
 #include "equations/equations.h"
 #include "integration/event_log.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 #include "mechanism_codesign/status.h"
 #include "system/state.h"
 
@@ -56,7 +56,7 @@ class ModeWatch {
   /// After an attempt that passes the error test: repeats it with the size at which the first guard
   /// is zero, located to rounding, if one leaves its side within the attempt; cross() is then due.
   /// @returns false if such an attempt fails: the step is to be repeated with a smaller size.
-  bool cut(RosenbrockStep<double>* step);
+  bool cut(OneStep<double>* step);
   /// The guard at whose zero the last attempt was cut, -1 if none; and the mode behind it.
   int guard() const { return guard_; }
   const std::vector<bool>& next_mode() const { return next_mode_; }
@@ -91,7 +91,7 @@ class ModeWatch {
   /// Changes the mode at `state`, the end of the last step, whose z is solved for again.
   /// @param equations of the steps. @param change what happened; nothing if both modes are equal.
   /// @returns kSwitchHolds where the motion after the change leads back at once, or a status of
-  /// Assembly::solve_rates().
+  /// RateSolution::solve().
   Status cross(const State<double>& state, Assembly* assembly, Equations<double>* equations,
                ModeChange* change);
 
@@ -114,26 +114,26 @@ class ModeWatch {
   double side(int k, const VectorX<double>& guards) const {
     return mode_[to_index(k)] ? guards[k] : -guards[k];
   }
-  double side_at(int k, double theta, RosenbrockStep<double>* step);
+  double side_at(int k, double theta, OneStep<double>* step);
   /// Whether a value of side() has left its side by more than what rounding makes of the guard,
   /// which may stay at zero: a bristle at rest.
   bool has_left(int k, double value) const { return value < -sizes_[k]; }
-  Crossing first_crossing(RosenbrockStep<double>* step);
+  Crossing first_crossing(OneStep<double>* step);
   bool is_undefined_before(const Crossing& crossing);
-  Crossing crossing_of(int k, RosenbrockStep<double>* step);
-  Crossing crossing_at_end(RosenbrockStep<double>* step);
-  double locate(const Crossing& crossing, RosenbrockStep<double>* step);
-  bool repeat(int guard, double h, RosenbrockStep<double>* step);
+  Crossing crossing_of(int k, OneStep<double>* step);
+  Crossing crossing_at_end(OneStep<double>* step);
+  double locate(const Crossing& crossing, OneStep<double>* step);
+  bool repeat(int guard, double h, OneStep<double>* step);
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
-  void look_for_touch(int k, double place, double value, RosenbrockStep<double>* step);
+  void look_for_touch(int k, double place, double value, OneStep<double>* step);
   /// The switch that the change of the mode concerns, of the mode before it; -1: none.
   int changed_switch(int guard, const std::vector<bool>& mode) const;
   Status count_return(double t);
   bool has_jump(const ModeChange& change) const;
   std::vector<bool> beyond(int guard) const;
-  std::vector<bool> mode_beyond(const Crossing& crossing, RosenbrockStep<double>* step);
-  std::vector<bool> mode_of_one(const Crossing& crossing, RosenbrockStep<double>* step);
+  std::vector<bool> mode_beyond(const Crossing& crossing, OneStep<double>* step);
+  std::vector<bool> mode_of_one(const Crossing& crossing, OneStep<double>* step);
   bool is_alone(int guard) const;
   Status enter(Assembly* assembly, Equations<double>* equations, ModeChange* change);
   int jumped_guard(const ModeChange& change, Equations<double>* equations);

@@ -21,7 +21,7 @@ Status PostureSequence::start(const std::vector<double>& parameters) {
       [this](const std::vector<double>& design) {
         return assemble_start(system_, design, &assembly_, &equations_, &state_);
       },
-      [this] { assembly_.keep_pivots(); });
+      [this] { assembly_.rates().keep_pivots(); });
   return arrive(std::move(status));
 }
 

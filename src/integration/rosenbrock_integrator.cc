@@ -12,10 +12,10 @@ namespace codesign {
 
 namespace {
 
-/// The scaled error of the objective's integral over the last attempt, as RosenbrockStep::error().
+/// The scaled error of the objective's integral over the last attempt, as OneStep::error().
 /// Where little moves, or a given motion does not feel its effort, of which the objective is made,
 /// steps could go over much of it.
-double psi_error(const RosenbrockStep<double>& step, const SolverOptions& options) {
+double psi_error(const OneStep<double>& step, const SolverOptions& options) {
   const RosenbrockTableau& tableau = step.tableau();
   const int psi = step.increment_layout().psi();
   double end = step.psi(), estimate = 0.0;
@@ -60,7 +60,7 @@ Status RosenbrockIntegrator::start(const std::vector<double>& parameters) {
   return repeatable_start_.start(
       system_, parameters, [this](const std::vector<double>& design) { return begin(design); },
       [this] {
-        assembly_.keep_pivots();
+        assembly_.rates().keep_pivots();
         step_.keep_pivots();
       });
 }
@@ -186,7 +186,7 @@ Status RosenbrockIntegrator::sample() {
   before_jump_ = step_.state();
   State<double>& behind = behind_jump_ = before_jump_;
   step_.equations().jump(jump_events_, &behind);
-  if (Status status = assembly_.solve_rates(&step_.equations(), &behind); !status.ok())
+  if (Status status = assembly_.rates().solve(&step_.equations(), &behind); !status.ok())
     return status;
   step_.restart(behind);
   work_.start(behind, run_watch_.motion());

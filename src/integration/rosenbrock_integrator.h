@@ -11,7 +11,7 @@
 #include "integration/integrator.h"
 #include "integration/method_choice.h"
 #include "integration/mode_watch.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 #include "integration/run_ends.h"
 #include "integration/run_watch.h"
 #include "integration/singularity_watch.h"
@@ -39,10 +39,10 @@ class RosenbrockIntegrator final : public Integrator {
   const Statistics& statistics() const override { return statistics_; }
   Warnings warnings() const override;
 
-  /// Called for a step whose error is below 1, before RosenbrockStep::accept(); computes the
+  /// Called for a step whose error is below 1, before OneStep::accept(); computes the
   /// tangent of its stages there. Returns a scaled error, and the step is rejected if that
   /// exceeds 1.
-  using BeforeAccept = std::function<double(RosenbrockStep<double>*)>;
+  using BeforeAccept = std::function<double(OneStep<double>*)>;
 
   Status advance(double limit, const BeforeAccept& before_accept);
 
@@ -75,8 +75,8 @@ class RosenbrockIntegrator final : public Integrator {
   const std::vector<ControlEvent>& jump_events() const { return jump_events_; }
   const State<double>& before_jump() const { return before_jump_; }
 
-  const RosenbrockStep<double>& step() const { return step_; }
-  RosenbrockStep<double>& step() { return step_; }
+  const OneStep<double>& step() const { return step_; }
+  OneStep<double>& step() { return step_; }
   const State<double>& initial_state() const { return initial_; }
 
  private:
@@ -114,7 +114,7 @@ class RosenbrockIntegrator final : public Integrator {
   std::vector<ControlEvent> jump_events_;
   State<double> before_jump_, behind_jump_;
   VectorX<double> residual_before_, residual_behind_;
-  RosenbrockStep<double> step_;
+  OneStep<double> step_;
   Assembly assembly_;
   State<double> initial_;
   StepController controller_;

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "equations/compiled_system.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "text/number_text.h"
@@ -138,7 +138,7 @@ void StepWork::start(const State<double>& state, const BodyMotion& motion) {
   power_ = motion.power(state.q, state.v, state.z);
 }
 
-double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& motion) {
+double StepWork::over(const OneStep<double>& step, const BodyMotion& motion) {
   const State<double>& to = step.state();
   double psi = 0.0;
   step.interpolate(0.5, &middle_, &psi);
@@ -148,7 +148,7 @@ double StepWork::over(const RosenbrockStep<double>& step, const BodyMotion& moti
   return step.step_size() / 6.0 * (begun + 4.0 * middle + power_);
 }
 
-double StepWork::refined(const RosenbrockStep<double>& step, const BodyMotion& motion) {
+double StepWork::refined(const OneStep<double>& step, const BodyMotion& motion) {
   constexpr std::array<double, 5> kNodes{-0.9061798459386640, -0.5384693101056831, 0.0,
                                          0.5384693101056831, 0.9061798459386640},
       kWeights{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,

@@ -11,7 +11,7 @@
 namespace codesign {
 
 template <class T>
-class RosenbrockStep;
+class OneStep;
 
 /// Kinetic energy of the bodies and potential energy of gravity [J], the latter zero if every
 /// centre of mass is at the ground's origin.
@@ -81,11 +81,11 @@ class StepWork {
   void start(const State<double>& state, const BodyMotion& motion);
   /// Work [J] over the last accepted step. Must be called once for each accepted step: the power at
   /// its end is kept for the next one.
-  double over(const RosenbrockStep<double>& step, const BodyMotion& motion);
+  double over(const OneStep<double>& step, const BodyMotion& motion);
   /// The same step, after over(), by Gauss's formula of five points on each half. Simpson's rule is
   /// exact for cubic powers only: a step under a force that is a polynomial of the time, say, has
   /// no error and becomes as long as the run.
-  double refined(const RosenbrockStep<double>& step, const BodyMotion& motion);
+  double refined(const OneStep<double>& step, const BodyMotion& motion);
 
  private:
   State<double> middle_;  ///< within the step

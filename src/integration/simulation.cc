@@ -87,8 +87,8 @@ class Simulation::Implementation {
     if (integrator_->is_ended()) time = std::min(time, integrator_->state().t);
     integrator_->interpolate(time, &sample_, &psi);
     if (integrator_->state().t > 0.0)
-      integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
-    psi = integrator_->of_squares(psi);
+      integrator_->assembly().rates().solve(&integrator_->equations(), &sample_);
+    psi = integrator_->of_losses(psi);
     observer_.observe(sample_, psi, integrator_->assembly().theta(), &integrator_->equations(),
                       frame);
   }
@@ -97,8 +97,8 @@ class Simulation::Implementation {
     sample_ = integrator_->state();
     // The rates of a multistep method do not fulfil the equations.
     if (system_->study().solver.integrator == IntegratorKind::kIdas)
-      integrator_->assembly().solve_rates(&integrator_->equations(), &sample_);
-    return integrator_->of_squares(integrator_->psi(), integrator_->equations().terminal(sample_));
+      integrator_->assembly().rates().solve(&integrator_->equations(), &sample_);
+    return integrator_->of_losses(integrator_->psi(), integrator_->equations().terminal(sample_));
   }
   double time() const { return integrator_->state().t; }
   double end() const { return integrator_->end(); }

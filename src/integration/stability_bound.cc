@@ -48,7 +48,7 @@ void StabilityBound::begin_direction() {
 
 /// Whether both differences of (15c), between the last two stages, are below the tolerances. A
 /// mechanism that turns evenly rests in this sense.
-bool StabilityBound::rests(const RosenbrockStep<double>& step) const {
+bool StabilityBound::rests(const OneStep<double>& step) const {
   const std::size_t last = to_index(step.tableau().stages) - 1;
   const State<double>&at = step.stages()[last], &from = step.stages()[last - 1];
   const VectorX<double>&u = step.increments()[last], &before = step.increments()[last - 1];
@@ -84,7 +84,7 @@ double StabilityBound::length(double per_time) const {
 }
 
 /// direction = f_y direction. False if that cannot be computed.
-bool StabilityBound::multiply(RosenbrockStep<double>* step) {
+bool StabilityBound::multiply(OneStep<double>* step) {
   const State<double>& at = step->unprojected();
   VectorX<double>& w = direction_;
   // Far above rounding, and within the regularized zones of friction and stops.
@@ -95,7 +95,7 @@ bool StabilityBound::multiply(RosenbrockStep<double>* step) {
   beside_.q += e * w.segment(at_.x(), at_.n);
   beside_.s += e * w.segment(at_.s(), at_.states);
   beside_.v += e * w.segment(at_.v(), at_.n);
-  if (!step->solve_at(&beside_)) return false;
+  if (!step->explicit_stages().solve_at(&beside_)) return false;
   w.segment(at_.x(), at_.n) = w.segment(at_.v(), at_.n);
   w.segment(at_.v(), at_.n) = (beside_.z.head(at_.n) - at.z.head(at_.n)) / e;
   w.segment(at_.s(), at_.states) = (beside_.z.tail(at_.states) - at.z.tail(at_.states)) / e;
@@ -104,7 +104,7 @@ bool StabilityBound::multiply(RosenbrockStep<double>* step) {
 
 // Two products, which undamped oscillations need. With complex eigenvalues the estimates go to and
 // fro, so that the larger of two counts.
-void StabilityBound::estimate(RosenbrockStep<double>* step) {
+void StabilityBound::estimate(OneStep<double>* step) {
   const double h = step->step_size(), per_time = last_ > 0.0 ? last_ : 1.0 / h;
   direction_ /= length(per_time);
   const bool found = multiply(step) && multiply(step);
@@ -119,7 +119,7 @@ void StabilityBound::estimate(RosenbrockStep<double>* step) {
   waits_ = h * radius_ > kFarBelow * kStable ? kWaits : kLongWaits;
 }
 
-bool StabilityBound::allows(RosenbrockStep<double>* step) {
+bool StabilityBound::allows(OneStep<double>* step) {
   largest_ = kNoBound;
   if (!step->tableau().is_explicit() || !rests(*step)) return true;
   const double h = step->step_size();

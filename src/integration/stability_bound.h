@@ -3,7 +3,7 @@
 
 #include "description/solver_options.h"
 #include "equations/compiled_system.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 namespace codesign {
 
@@ -21,17 +21,17 @@ class StabilityBound {
   /// Whether the last attempt of `step`, not yet accepted, is stable or moves; always true for an
   /// implicit method. Where it does not move, the spectral radius of the equations is estimated by
   /// the power method, with differences of the accelerations as products, in some of the steps.
-  bool allows(RosenbrockStep<double>* step);
+  bool allows(OneStep<double>* step);
   /// The size of the next attempt [s], `proposal` or less.
   double shorten(double proposal);
   /// Whether shorten() has made the last proposal shorter.
   bool limits() const { return limits_; }
 
  private:
-  bool rests(const RosenbrockStep<double>& step) const;
+  bool rests(const OneStep<double>& step) const;
   bool is_due(double h);
-  void estimate(RosenbrockStep<double>* step);
-  bool multiply(RosenbrockStep<double>* step);
+  void estimate(OneStep<double>* step);
+  bool multiply(OneStep<double>* step);
   double length(double per_time) const;
   void begin_direction();
 

@@ -11,15 +11,15 @@ namespace codesign {
 
 StopWatch::StopWatch(const CompiledSystem& system) : system_(system) {
   const std::vector<JointLoad>& loads = system.loads();
-  has_stops_ =
-      std::any_of(loads.begin(), loads.end(), [](const JointLoad& load) { return load.stop; });
+  has_stops_ = std::any_of(loads.begin(), loads.end(),
+                           [](const JointLoad& load) { return load.find<StopLoad>() != nullptr; });
 }
 
 void StopWatch::look(const State<double>& state, Equations<double>* equations) {
   if (!has_stops_) return;
   equations->formulas().load(state);
   for (const JointLoad& load : system_.loads()) {
-    if (!load.stop) continue;
+    if (!load.find<StopLoad>()) continue;
     const JointDynamicsConstants<double>& d =
         equations->constants().pairs[to_index(load.pair)].dynamics[to_index(load.element)];
     const double position = equations->formulas().coordinate(load.pair, load.element).position,

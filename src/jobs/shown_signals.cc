@@ -29,8 +29,7 @@ std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
   if (unit.front() == 'e') return input + unit.substr(1);
   if (unit.front() != 'q' && unit.front() != 'Q') return unit;
   if (joint == nullptr) return "";
-  const bool turns = is_turn(joint->type) || joint->type == JointType::kSpherical ||
-                     joint->type == JointType::kUniversal;
+  const bool turns = joint->freedoms().turns > 0 && joint->freedoms().slides == 0;
   const char* of_joint = unit.front() == 'q' ? (turns ? "rad" : "m") : (turns ? "N m" : "N");
   return of_joint + unit.substr(1);
 }
@@ -65,7 +64,7 @@ std::vector<std::string> further_signals(const RobotDescription& robot, const Mo
   }
   for (const GivenMotion& motion : study.motion) texts.push_back(motion.joint + "/effort");
   for (const JointDescription& joint : robot.joints)
-    if (has_friction(joint) && has_one_coordinate(joint.type))
+    if (has_friction(joint) && joint.has_one_coordinate())
       texts.push_back(joint.name + "/friction_power");
   for (const char* quantity : {"friction_power", "damping_power", "actuator_power", "load_power"})
     texts.push_back(std::string("mechanism/") + quantity);

@@ -27,7 +27,7 @@ struct GearAt {
 std::vector<GearAt> gears_with_losses(const CompiledSystem& system) {
   std::vector<GearAt> gears;
   for (const JointLoad& load : system.loads()) {
-    if (!load.gear || !load.gear_transmits) continue;
+    if (!load.find<GearLoss>() || !load.has_gear_torque) continue;
     const auto p = to_index(load.pair), e = to_index(load.element);
     const JointDescription& joint =
         system.robot().joints[to_index(system.topology().pairs[p].chain[e].joint)];

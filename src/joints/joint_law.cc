@@ -103,6 +103,8 @@ constexpr BearingLaw kPlane = bearing({planar_normal_force, planar_normal_force}
 constexpr BearingLaw kPin = hinge({pin_normal_force, pin_normal_force});
 constexpr BearingLaw kPinHeldAlong = hinge({revolute_normal_force, revolute_normal_force});
 
+using A = FreedomAxis;
+
 constexpr JointLaw make_row(J type, int rows, F force) {
   JointLaw law;
   law.type = type;
@@ -121,6 +123,7 @@ constexpr JointLaw revolute_in_plane() {
   JointLaw law = make_row(J::kRevolute, 2, F::kAcross);
   law.add_rows = {revolute_rows_in_plane, revolute_rows_in_plane};
   law.bearing = kPinHeldAlong;
+  law.freedoms.turn(A::kAxis);
   return law;
 }
 
@@ -129,6 +132,7 @@ constexpr JointLaw prismatic_in_plane() {
   law.torque_rows = true;
   law.add_rows = {prismatic_rows_in_plane, prismatic_rows_in_plane};
   law.bearing = rail();
+  law.freedoms.slide(A::kAxis);
   return law;
 }
 
@@ -151,6 +155,8 @@ constexpr JointLaw revolute(J type, const char* name) {
   law.add_rows = {revolute_rows, revolute_rows};
   law.bearing = kPinHeldAlong;
   law.in_plane = &kRevoluteInPlane;
+  law.freedoms.turn(A::kAxis);
+  law.needs_limit = type == J::kRevolute;
   return law;
 }
 
@@ -161,6 +167,8 @@ constexpr JointLaw prismatic() {
   law.add_rows = {prismatic_rows, prismatic_rows};
   law.bearing = rail();
   law.in_plane = &kPrismaticInPlane;
+  law.freedoms.slide(A::kAxis);
+  law.needs_limit = true;
   return law;
 }
 
@@ -172,12 +180,17 @@ constexpr JointLaw planar() {
   law.bearing = kPlane;
   law.slip_coordinates = 3;
   law.slips_of_the_point = 2;
+  law.freedoms.slide(A::kInPlane);
+  law.freedoms.slide(A::kAcross);
+  law.freedoms.turn(A::kAxis);
   return law;
 }
 
 constexpr JointLaw floating() {
   JointLaw law = make_row(J::kFloating, 0, F::kNone);
   law.of_joints = "floating";
+  for (A axis : {A::kX, A::kY, A::kZ}) law.freedoms.slide(axis);
+  for (A axis : {A::kX, A::kY, A::kZ}) law.freedoms.turn(axis);
   return law;
 }
 
@@ -186,6 +199,7 @@ constexpr JointLaw spherical() {
   law.of_loops = "codesign:spherical";
   law.bearing = ball();
   law.slip_coordinates = law.slips_of_the_point = 3;
+  for (A axis : {A::kX, A::kY, A::kZ}) law.freedoms.turn(axis);
   return law;
 }
 
@@ -194,6 +208,8 @@ constexpr JointLaw universal() {
   law.of_loops = "codesign:universal";
   law.in_forest = true;
   law.add_rows = {universal_rows, universal_rows};
+  law.freedoms.turn(A::kAxis);
+  law.freedoms.turn(A::kAxis);
   return law;
 }
 
@@ -203,6 +219,8 @@ constexpr JointLaw cylindrical() {
   law.torque_rows = law.in_forest = true;
   law.add_rows = {cylindrical_rows, cylindrical_rows};
   law.bearing = kPin;
+  law.freedoms.slide(A::kAxis);
+  law.freedoms.turn(A::kAxis);
   return law;
 }
 
@@ -244,13 +262,13 @@ constexpr JointLaw kJointTable[] = {fixed(),
                                     table(),
                                     translational()};
 
-constexpr const JointLaw& row_of(JointType type) {
+}  // namespace
+
+const JointLaw& row_of(JointType type) {
   std::size_t k = 0;
   while (kJointTable[k].type != type) ++k;
   return kJointTable[k];
 }
-
-}  // namespace
 
 const PairKind PairKind::kFixed{row_of(J::kFixed)}, PairKind::kRevolute{row_of(J::kRevolute)},
     PairKind::kPrismatic{row_of(J::kPrismatic)}, PairKind::kCylindrical{row_of(J::kCylindrical)},

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "forces/law.h"
@@ -28,16 +29,6 @@ enum class JointType {
   kDistance,
   kOther
 };
-
-/// Whether the only coordinate of a type is an angle.
-constexpr bool is_turn(JointType type) {
-  return type == JointType::kRevolute || type == JointType::kContinuous;
-}
-/// Whether a type has exactly one coordinate, and with it a scalar position, velocity, acceleration
-/// and effort.
-constexpr bool has_one_coordinate(JointType type) {
-  return is_turn(type) || type == JointType::kPrismatic;
-}
 
 template <class T>
 struct PairRows;
@@ -68,6 +59,40 @@ struct BearingLaw {
   bool joint_length = false, joint_width = false, pin_radius = false;
 };
 
+/// The direction of a freedom in the joint frame.
+enum class FreedomAxis {
+  kAxis,     ///< `<axis>` of the joint
+  kInPlane,  ///< normal to it, plane_axes().x
+  kAcross,   ///< normal to both, plane_axes().y
+  kX,
+  kY,
+  kZ,  ///< of the joint frame
+};
+
+/// One motion that a joint leaves free: along an axis, or a turn about it. In a joint of the tree
+/// it has a coordinate [m or rad].
+struct JointFreedom {
+  bool turns = false;
+  FreedomAxis axis = FreedomAxis::kAxis;
+};
+
+/// What a joint leaves free: slides along directions that are normal to each other, after them
+/// turns. A joint of the tree has one coordinate for each of them, in this order, and no turn, one,
+/// or three about x, y and z, from which its coordinates follow in every position;
+/// freedom_coordinates().
+struct JointFreedoms {
+  std::array<JointFreedom, 6> each{};
+  int slides = 0, turns = 0;
+
+  constexpr int size() const { return slides + turns; }
+  constexpr void slide(FreedomAxis axis) {
+    each[static_cast<std::size_t>(slides++)] = {false, axis};
+  }
+  constexpr void turn(FreedomAxis axis) {
+    each[static_cast<std::size_t>(slides + turns++)] = {true, axis};
+  }
+};
+
 /// A joint, one row of the table in joint_law.cc: its names, the properties of the pair of bodies
 /// that it makes, and its functions of values. Body i is on the parent's side, body j on the
 /// child's; z is the joint axis.
@@ -94,6 +119,9 @@ struct JointLaw {
   /// the row of a loop of this type that is held in the plane of its motion only, theory (23c);
   /// null: there is none. It has y'' normal to the plane if the loop slides along z'', else z''
   const JointLaw* in_plane = nullptr;
+  JointFreedoms freedoms{};
+  /// whether a joint of the tree needs a `<limit>`, whose `lower` and `upper` bound its coordinate
+  bool needs_limit = false;
 
   /// How many of the first rows are components of F''.
   constexpr int force_rows() const {
@@ -103,6 +131,18 @@ struct JointLaw {
   }
   /// Whether friction acts in a plane, whose normal force only the first row enters.
   constexpr bool is_plane() const { return slips_of_the_point == 2; }
+  /// Whether it has exactly one coordinate, and with it a scalar position, velocity, acceleration
+  /// and effort; whether this is an angle, or a distance.
+  constexpr bool has_one_coordinate() const { return freedoms.size() == 1; }
+  constexpr bool is_turn() const { return has_one_coordinate() && freedoms.turns == 1; }
+  constexpr bool is_slide() const { return has_one_coordinate() && freedoms.slides == 1; }
+  /// Whether it turns about its axis, and moves normal to it otherwise.
+  constexpr bool turns_in_plane() const {
+    bool leaves = freedoms.turns != 1;
+    for (int k = 0; k < freedoms.slides; ++k)
+      leaves = leaves || freedoms.each[static_cast<std::size_t>(k)].axis == FreedomAxis::kAxis;
+    return !leaves;
+  }
 };
 
 /// The kind of a pair: the relative motion that it allows.
@@ -121,6 +161,9 @@ class PairKind : public RowReference<JointLaw> {
       kDistance,                 ///< two points at a constant distance
       kFree;                     ///< any motion
 };
+
+/// The row of a type; of kOther there is none by the type alone.
+const JointLaw& row_of(JointType type);
 
 /// The library's joints.
 std::vector<RowReference<JointLaw>> joint_laws();

@@ -35,7 +35,7 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
   coupling.offset = joint.mimic->offset;
   coupling.terms.push_back(term_of(robot, topology, follower, coupling));
   const int leader = joint_named(robot, joint.mimic->joint);
-  if (robot.joints[to_index(leader)].type == JointType::kFixed)
+  if (robot.joints[to_index(leader)].is_fixed())
     return coupling;  // the fixed joint's coordinate is zero
   coupling.terms.push_back(term_of(robot, topology, leader, coupling));
   coupling.terms.back().sign = -1.0;
@@ -51,8 +51,8 @@ std::vector<int> moving_joints(const RobotDescription& robot, const Topology& to
     const int k = topology.link_parent_joint[to_index(at)];
     const JointDescription& joint = robot.joints[to_index(k)];
     at = joint.parent;
-    if (joint.type == JointType::kFixed) continue;
-    if (!has_one_coordinate(joint.type))
+    if (joint.is_fixed()) continue;
+    if (!joint.has_one_coordinate())
       throw InputError({coupling.where, coupling.element(),
                         "a joint between the coupled links has more than one coordinate",
                         joint.name, "revolute, continuous, prismatic and fixed joints"});

@@ -87,11 +87,11 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
       chain_geometry(robot, topology, chain, default_values(robot));
   Axes axes;
   for (std::size_t k = 0; k < chain.size(); ++k) {
-    const JointType type = robot.joints[to_index(chain[k].joint)].type;
-    if (is_turn(type)) {
+    const JointDescription& joint = robot.joints[to_index(chain[k].joint)];
+    if (joint.is_turn()) {
       axes.turn.push_back(geometry.axes[k]);
       axes.turn_point.push_back(geometry.frames[k].t);
-    } else if (type == JointType::kPrismatic) {
+    } else if (joint.is_slide()) {
       axes.slide.push_back(geometry.axes[k]);
     } else {
       return std::nullopt;

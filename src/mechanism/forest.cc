@@ -40,23 +40,22 @@ int coupled_coordinates(const Topology& topology, const Forest& forest) {
 }  // namespace
 
 int forest_coordinates(const Pair& pair) {
-  return pair.kind == PairKind::kPlanar && pair.chain.size() == 1
-             ? 3
-             : static_cast<int>(pair.chain.size());
+  const auto count = static_cast<int>(pair.chain.size());
+  return count == 1 ? pair.kind->freedoms.size() : count;
 }
 
 Forest tree_forest(const Topology& topology, const std::vector<bool>& cut) {
   Forest forest;
   forest.pair_above.assign(topology.bodies.size(), -1);
   forest.body_below.assign(topology.pairs.size(), -1);
-  forest.is_plane.assign(topology.pairs.size(), false);
+  forest.has_several.assign(topology.pairs.size(), false);
   for (std::size_t p = 0; p < topology.pairs.size(); ++p) {
     const Pair& pair = topology.pairs[p];
     if (cut[p] || !has_scalar_coordinates(pair) || forest.pair_above[to_index(pair.body_j)] >= 0)
       continue;
     forest.pair_above[to_index(pair.body_j)] = static_cast<int>(p);
     forest.body_below[p] = pair.body_j;
-    forest.is_plane[p] = forest_coordinates(pair) != static_cast<int>(pair.chain.size());
+    forest.has_several[p] = forest_coordinates(pair) != static_cast<int>(pair.chain.size());
   }
   // A body follows its parent; the tree has no cycles.
   std::vector<bool> placed(topology.bodies.size(), false);

@@ -14,15 +14,15 @@ struct Topology;
 struct Forest {
   std::vector<int> pair_above;  ///< per body: the pair on which it hangs; -1: the body is free
   std::vector<int> body_below;  ///< per pair: the body that hangs on it; -1: the pair is cut
-  /// per pair: a single planar joint, whose three coordinates belong to one element of its chain
-  std::vector<bool> is_plane;
+  /// per pair: a single joint whose several coordinates belong to one element of its chain
+  std::vector<bool> has_several;
   std::vector<int> order;  ///< bodies that hang on a pair, parents before children
 
   bool empty() const { return order.empty(); }
 };
 
-/// The number of joint coordinates of a pair of the forest: one per joint of its chain, three of a
-/// planar joint.
+/// The number of joint coordinates of a pair of the forest: one per joint of its chain, all of a
+/// single joint.
 int forest_coordinates(const Pair& pair);
 
 /// The forest of the URDF tree: every pair of tree joints whose coordinates are scalars. Ball

@@ -30,11 +30,11 @@ std::string radians(double angle) { return to_decimal(angle) + " rad"; }
 PlaneFault joint_fault(const JointDescription& joint, const Vector& axis, const Vector& normal) {
   const std::string name = (joint.is_loop ? "the loop" : "joint '" + joint.name + "'");
   const double angle = angle_of_lines(axis, normal);
-  if (is_turn(joint.type) || joint.type == JointType::kPlanar) {
+  if (joint.law().turns_in_plane()) {
     if (angle <= kPlanar) return {};
     return {name + " turns about an axis that is not normal to the plane", radians(angle)};
   }
-  if (joint.type == JointType::kPrismatic) {
+  if (joint.is_slide()) {
     if (M_PI / 2.0 - angle <= kPlanar) return {};
     return {name + " slides along an axis that is not in the plane", radians(M_PI / 2.0 - angle)};
   }
@@ -58,8 +58,7 @@ PlaneFault gap_across(const Pose<double>& around, const Vector& normal) {
 /// it, in either order.
 PlaneFault transverse_fault(const JointDescription& loop, const Pose<double>& frame,
                             const Vector& axis, const Vector& normal) {
-  if (loop.type != JointType::kPrismatic || !loop.friction || !loop.friction->transverse_axis)
-    return {};
+  if (!loop.is_slide() || !loop.friction || !loop.friction->transverse_axis) return {};
   const Vector x =
       frame.R * transverse_axis<double>(frame.R.transpose() * axis, loop.friction->transverse_axis);
   const double angle = angle_of_lines(x, normal), off = std::min(angle, M_PI / 2.0 - angle);
@@ -90,10 +89,9 @@ PlaneFault find_plane_fault(const RobotDescription& robot, const Topology& topol
   const auto joint = [&robot](const ChainElement& element) -> const JointDescription& {
     return robot.joints[to_index(element.joint)];
   };
-  const bool turns =
-      std::any_of(pair.around.begin(), pair.around.end(), [&](const ChainElement& element) {
-        return is_turn(joint(element).type) || joint(element).type == JointType::kPlanar;
-      });
+  const bool turns = std::any_of(
+      pair.around.begin(), pair.around.end(),
+      [&](const ChainElement& element) { return joint(element).law().turns_in_plane(); });
   if (!turns)
     return {"no joint around it turns, so that its turn in a plane is redundant, too", ""};
   const Vector normal = plane_normal(robot, topology, pair, parameters);

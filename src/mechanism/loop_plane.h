@@ -31,8 +31,7 @@ template <class T>
 Vector3<T> plane_normal(const RobotDescription& robot, const Topology& topology, const Pair& pair,
                         const std::vector<T>& parameters) {
   const auto turns = [&](const ChainElement& element) {
-    const JointType type = robot.joints[to_index(element.joint)].type;
-    return is_turn(type) || type == JointType::kPlanar;
+    return robot.joints[to_index(element.joint)].law().turns_in_plane();
   };
   if (turns(pair.chain[0])) return chain_geometry(robot, topology, pair.chain, parameters).axes[0];
   std::size_t k = 0;

@@ -99,11 +99,11 @@ class MachineRules {
     const JointScale<T>& all = scale_.all;
     if (!is_positive(at.mass) || !is_positive(at.inertia) || !is_positive(all.inertia)) return;
     // The square of a radius: of what turns, or of the machine.
-    const T square = is_turn(joint.type) ? T(at.inertia / at.mass) : T(all.inertia / all.mass);
+    const T square = joint.is_turn() ? T(at.inertia / at.mass) : T(all.inertia / all.mass);
     const T radius = sqrt(square);
     c->transition_velocity =
-        T(kTransitionShare) * sqrt(is_turn(joint.type) ? T(scale_.acceleration / radius)
-                                                       : T(scale_.acceleration * radius));
+        T(kTransitionShare) *
+        sqrt(joint.is_turn() ? T(scale_.acceleration / radius) : T(scale_.acceleration * radius));
     if (friction.stribeck_velocity.is_zero())
       c->stribeck_velocity = T(10.0) * c->transition_velocity;
   }
@@ -132,7 +132,7 @@ class MachineRules {
   JointScale<T> pushing(const JointDescription& joint, JointScale<T> at) const {
     if (!has_loops_) return at;
     at.mass += scale_.all.mass;
-    at.inertia += is_turn(joint.type) ? scale_.all.inertia : scale_.all.mass;
+    at.inertia += joint.is_turn() ? scale_.all.inertia : scale_.all.mass;
     return at;
   }
   /// a sqrt(m M): of a slide the weight [N], else its torque at the radius of gyration [N m].
@@ -210,8 +210,8 @@ std::vector<MachineNumber> machine_numbers(const RobotDescription& robot, const 
   const auto add = [&](bool is_missing, const JointDescription& joint, const char* number,
                        const char* turning, const char* sliding, double value) {
     if (is_missing)
-      all.push_back({joint_of_motor(robot, joint.name), number,
-                     is_turn(joint.type) ? turning : sliding, value});
+      all.push_back(
+          {joint_of_motor(robot, joint.name), number, joint.is_turn() ? turning : sliding, value});
   };
   for (std::size_t p = 0; p < topology.pairs.size(); ++p) {
     const Pair& pair = topology.pairs[p];

@@ -99,10 +99,10 @@ JointScale<T> scale_of_joint(const RobotDescription& robot, const JointDescripti
   const CarriedMass<T> on_joint = mass_on_joint(robot, joint, parameters, machine.carried);
   JointScale<T> scale;
   scale.mass = is_less(T(0.0), on_joint.mass, true) ? on_joint.mass : machine.all.mass;
-  if (!has_one_coordinate(joint.type)) return scale;
+  if (!joint.has_one_coordinate()) return scale;
   const Vector3<T> axis = axis_at(joint.axis, parameters);
   scale.inertia = scale.mass;
-  if (is_turn(joint.type))
+  if (joint.is_turn())
     scale.inertia = dot<T>(axis, on_joint.J * axis) + T(kLeastInertia) * machine.all.inertia;
   return scale;
 }

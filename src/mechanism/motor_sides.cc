@@ -14,7 +14,7 @@ bool moves_apart(const JointDescription& joint, const MotionStudy& study) {
 JointDescription motor_side(const JointDescription& joint, int link) {
   JointDescription motor;
   motor.name = joint.name + "/motor";
-  motor.type = is_turn(joint.type) ? JointType::kContinuous : JointType::kPrismatic;
+  motor.type = joint.is_turn() ? JointType::kContinuous : JointType::kPrismatic;
   motor.parent = joint.parent;
   motor.child = link;
   motor.origin = joint.origin;

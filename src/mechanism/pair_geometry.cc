@@ -25,9 +25,8 @@ class PairBuilder {
         result_(*result) {
     result_.clear();
     for (std::size_t k = 0; k < pair.chain.size(); ++k) {
-      const JointType type = joint(k).type;
-      if (type == JointType::kPrismatic) slides_.push_back(k);
-      if (is_turn(type)) turns_.push_back(k);
+      if (joint(k).is_slide()) slides_.push_back(k);
+      if (joint(k).is_turn()) turns_.push_back(k);
     }
   }
 
@@ -147,9 +146,8 @@ class PairBuilder {
 
   Coordinate coordinate(std::size_t k, const Matrix3<T>& R_ji) const {
     Coordinate c;
-    const JointType type = joint(k).type;
-    if (type == JointType::kPrismatic) c = slide(k, R_ji);
-    if (is_turn(type)) c = turn(k, R_ji);
+    if (joint(k).is_slide()) c = slide(k, R_ji);
+    if (joint(k).is_turn()) c = turn(k, R_ji);
     if (pair_.chain[k].reversed) {
       c.sign = -c.sign;
       c.offset = -c.offset;
@@ -159,7 +157,7 @@ class PairBuilder {
 
   void place_steps() {
     for (std::size_t k = 0; k < pair_.chain.size(); ++k)
-      visit_steps(joint(k), parameters_, [&](bool turns, const Vector3<T>& axis) {
+      visit_freedoms(joint(k), parameters_, [&](bool turns, const Vector3<T>& axis) {
         result_.steps.push_back({turns, geometry_.frames[k].R * axis});
       });
   }
@@ -366,7 +364,7 @@ void check_friction_geometry(const FrictionDescription& friction, PairKind kind,
          "exponent",
          "", "viscous_exponent on revolute, continuous, prismatic and cylindrical joints"});
   if (friction.is_direct) {
-    if (has_one_coordinate(kind->type)) return;
+    if (kind->has_one_coordinate()) return;
     throw InputError({friction.where, element,
                       "friction in N m or N needs a joint with one coordinate", "",
                       "revolute, continuous and prismatic joints; coefficients on others"});

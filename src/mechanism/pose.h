@@ -91,26 +91,26 @@ PlaneAxes<T> plane_axes(const JointDescription& joint, const std::vector<T>& par
   return {x, cross(z, x)};
 }
 
-/// Calls visit(turns, axis) for each coordinate of a joint in turn: whether it turns about the unit
-/// vector `axis`, else it slides along it. Axes are those at zero position in the joint frame. Of
-/// joints of other types than revolute, continuous, prismatic, planar (two slides, then a turn) and
-/// floating (three slides, then turns about x, y and z) none.
+/// Calls visit(turns, axis) for each freedom of a joint in turn: whether it turns about the unit
+/// vector `axis`, else it slides along it. Axes are those at zero position in the joint frame.
 template <class T, class Visit>
-void visit_steps(const JointDescription& joint, const std::vector<T>& parameters,
-                 const Visit& visit) {
-  if (joint.type == JointType::kFloating) {
-    for (bool turns : {false, true})
-      for (int k = 0; k < 3; ++k) visit(turns, Vector3<T>(Vector3<T>::Unit(k)));
-    return;
+void visit_freedoms(const JointDescription& joint, const std::vector<T>& parameters,
+                    const Visit& visit) {
+  const JointFreedoms& freedoms = joint.freedoms();
+  std::optional<PlaneAxes<T>> plane;
+  for (int k = 0; k < freedoms.size(); ++k) {
+    const JointFreedom& freedom = freedoms.each[to_index(k)];
+    const bool in_plane =
+        freedom.axis == FreedomAxis::kInPlane || freedom.axis == FreedomAxis::kAcross;
+    if (in_plane && !plane) plane = plane_axes(joint, parameters);
+    if (in_plane)
+      visit(freedom.turns, freedom.axis == FreedomAxis::kInPlane ? plane->x : plane->y);
+    else if (freedom.axis == FreedomAxis::kAxis)
+      visit(freedom.turns, axis_at(joint.axis, parameters));
+    else
+      visit(freedom.turns, Vector3<T>(Vector3<T>::Unit(static_cast<int>(freedom.axis) -
+                                                       static_cast<int>(FreedomAxis::kX))));
   }
-  if (!has_one_coordinate(joint.type) && joint.type != JointType::kPlanar) return;
-  const Vector3<T> axis = axis_at(joint.axis, parameters);
-  if (joint.type == JointType::kPlanar) {
-    const PlaneAxes<T> plane = plane_axes(joint, parameters);
-    visit(false, plane.x);
-    visit(false, plane.y);
-  }
-  visit(joint.type != JointType::kPrismatic, axis);
 }
 
 }  // namespace codesign

@@ -18,7 +18,7 @@ RigidGroups::RigidGroups(const RobotDescription& robot)
          at = to_index(robot.joints[to_index(link_parent_joint[at])].parent)) {
       walked.push_back(at);
       const int joint = link_parent_joint[at];
-      if (joint >= 0 && robot.joints[to_index(joint)].type == JointType::kFixed) continue;
+      if (joint >= 0 && robot.joints[to_index(joint)].is_fixed()) continue;
       link_base[at] = static_cast<int>(at);
       break;
     }

@@ -50,8 +50,7 @@ int first_with_axes_of(const RobotDescription& robot, int link) {
   for (std::size_t steps = 0; steps < robot.joints.size(); ++steps) {
     int next = -1;
     for (const JointDescription& joint : robot.joints)
-      if (!joint.is_loop && joint.child == link &&
-          (joint.type == JointType::kFixed || joint.type == JointType::kPrismatic) &&
+      if (!joint.is_loop && joint.child == link && joint.freedoms().turns == 0 &&
           is_unturned(joint.origin))
         next = joint.parent;
     if (next < 0) break;

@@ -171,7 +171,7 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
   Names signals;
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const JointDescription& joint = robot.joints[i];
-    if (!has_one_coordinate(joint.type) || pairs[i] < 0) continue;
+    if (!joint.has_one_coordinate() || pairs[i] < 0) continue;
     signals.push_back(joint.name + "/position");
     signals.push_back(joint.name + "/velocity");
   }

@@ -82,7 +82,7 @@ class TopologyBuilder {
   void collect_edges() {
     for (std::size_t k = 0; k < robot_.joints.size(); ++k) {
       const JointDescription& joint = robot_.joints[k];
-      if (joint.type == JointType::kFixed && !joint.is_loop) continue;
+      if (joint.is_fixed() && !joint.is_loop) continue;
       edges_.push_back(single_edge(static_cast<int>(k)));
       if (edges_.back().from == edges_.back().to)
         throw InputError({joint.where, joint.element(), "both ends lie on the same rigid body",
@@ -293,7 +293,7 @@ std::vector<int> joints_between(const RobotDescription& robot,
   for (int end : {predecessor, successor}) {
     for (int link = end; link != ancestor;) {
       const int joint = link_parent_joint[to_index(link)];
-      if (robot.joints[to_index(joint)].type != JointType::kFixed) joints.push_back(joint);
+      if (!robot.joints[to_index(joint)].is_fixed()) joints.push_back(joint);
       link = robot.joints[to_index(joint)].parent;
     }
   }

@@ -28,7 +28,7 @@ Observer::Observer(const CompiledSystem& system, const std::vector<SignalDescrip
 void Observer::name_joints() {
   const RobotDescription& robot = system_.robot();
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
-    if (!has_one_coordinate(robot.joints[k].type) || robot.joints[k].is_motor) continue;
+    if (!robot.joints[k].has_one_coordinate() || robot.joints[k].is_motor) continue;
     JointSource source;
     source.joint = static_cast<int>(k);
     source.pair = system_.topology().joint_pair[k];
@@ -61,8 +61,7 @@ void Observer::name_frictions() {
     frictions_.push_back({load.pair, load.element});
     names_.frictions.push_back(joint.name);
     names_.friction_is_torque.push_back(
-        joint.type != JointType::kPrismatic &&
-        !(pair.kind == PairKind::kCylindrical && load.element == 1));
+        !joint.is_slide() && !(pair.kind == PairKind::kCylindrical && load.element == 1));
   }
   for (int contact : system_.contacts()) {
     const Pair& pair = topology.pairs[to_index(contact)];
@@ -78,7 +77,7 @@ void Observer::name_links() {
   // Motors behind elastic gears turn links of their own, the last ones, which no file holds.
   names_.links.resize(names_.links.size() - system_.elastic_gears().size());
   for (const JointDescription& joint : robot.joints)
-    if (!joint.is_loop && (joint.type == JointType::kPlanar || joint.type == JointType::kFloating))
+    if (joint.has_pose())
       names_.free_links.emplace_back(to_index(joint.child), to_index(joint.parent));
   for (std::size_t k = 0; k < system_.topology().pairs.size(); ++k) {
     if (!system_.topology().pairs[k].is_loop) continue;

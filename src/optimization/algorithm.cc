@@ -88,6 +88,27 @@ void check_constraints(const Study& study, const Algorithm& algorithm, bool with
         true);
 }
 
+bool has_negative_weight(const ObjectiveTerm& term) {
+  return term.weight.is_constant() && term.weight.nominal() < 0.0;
+}
+
+/// @param element the term. @param others the algorithms that take any term.
+void check_square(const ObjectiveTerm& term, const std::string& element,
+                  const std::string& others) {
+  if (has_negative_weight(term))
+    throw InputError({term.where, "objective",
+                      "optimizer.algorithm levenberg_marquardt takes sums of squares, without "
+                      "negative weights",
+                      to_decimal(term.weight.nominal()),
+                      "0 or more, or one of the algorithms " + others});
+  if (!term.loss->is_square())
+    throw InputError({term.where, element + ".loss",
+                      "optimizer.algorithm levenberg_marquardt takes sums of squares, which this "
+                      "loss does not make",
+                      term.loss->name,
+                      "loss: square, above or below, or one of the algorithms " + others});
+}
+
 }  // namespace
 
 SourceLocation where_of(const OptimizerOptions& options, const Study& study) {
@@ -133,14 +154,12 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
         "depends on the design";
     throw InputError(fault);
   }
-  for (const std::vector<ObjectiveTerm>* terms : {&study.integral, &study.terminal})
-    for (const ObjectiveTerm& term : *terms)
-      if (term.weight.is_constant() && term.weight.nominal() < 0.0)
-        throw InputError({term.where, "objective",
-                          "optimizer.algorithm levenberg_marquardt takes sums of squares, without "
-                          "negative weights",
-                          to_decimal(term.weight.nominal()),
-                          "0 or more, or one of the algorithms " + fault.allowed});
+  const auto check = [&](const std::vector<ObjectiveTerm>& terms, const std::string& list) {
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      check_square(terms[k], "objective." + list + "[" + std::to_string(k) + "]", fault.allowed);
+  };
+  check(study.integral, study.postures > 0 ? "sum" : "integral");
+  check(study.terminal, "terminal");
 }
 
 std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options,
@@ -171,15 +190,15 @@ bool uses_gradients(const std::string& algorithm) {
 }
 
 bool is_sum_of_squares(const Study& study) {
-  const auto is_negative = [](const ObjectiveTerm& term) {
-    return term.weight.is_constant() && term.weight.nominal() < 0.0;
+  const auto is_no_square = [](const ObjectiveTerm& term) {
+    return has_negative_weight(term) || !term.loss->is_square();
   };
   const auto is_own_term = [](const WatchedSignal& watched) {
     return is_term(watched) && !is_largest_of_many(watched);
   };
   return !has_moving_end(study) &&
-         std::none_of(study.integral.begin(), study.integral.end(), is_negative) &&
-         std::none_of(study.terminal.begin(), study.terminal.end(), is_negative) &&
+         std::none_of(study.integral.begin(), study.integral.end(), is_no_square) &&
+         std::none_of(study.terminal.begin(), study.terminal.end(), is_no_square) &&
          std::none_of(study.watched.begin(), study.watched.end(), is_own_term);
 }
 

@@ -38,8 +38,8 @@ std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptio
 /// Whether the algorithm reads gradients; one that does not has no use for conditions on them.
 bool uses_gradients(const std::string& algorithm);
 /// Whether the objective is a sum of squares over one time beside its peaks: the end of a run does
-/// not depend on the design, no weight is a negative number, and
-/// no measure of a signal is a term of its own, theory (21e).
+/// not depend on the design, no weight is a negative number, all losses are squares, and no measure
+/// of a signal is a term of its own, theory (21e).
 bool is_sum_of_squares(const Study& study);
 
 /// The NLopt optimizer that `options.algorithm` names. @param options checked, and neither `auto`

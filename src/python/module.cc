@@ -72,7 +72,7 @@ py::list parameters(const Session& session) {
 py::list joints(const Session& session) {
   std::vector<std::string> names;
   for (const JointDescription& joint : robot_of(session.problem()).joints)
-    if (has_one_coordinate(joint.type)) names.push_back(joint.name);
+    if (joint.has_one_coordinate()) names.push_back(joint.name);
   return to_list(names);
 }
 

@@ -28,12 +28,14 @@ void require_squares(const Study& study) {
   if (!has_term && is_sum_of_squares(study) &&
       study.ensemble.robust_options().measure == RobustMeasure::kMean)
     return;
-  throw InputError({{study.file, 1},
-                    "objective",
-                    "residuals belong to a sum of squares, which this objective is not",
-                    "",
-                    "integral, terminal and sum terms with weights of at least 0, no peaks and "
-                    "measures, robust.measure mean, and an end of runs that no parameter moves"});
+  throw InputError(
+      {{study.file, 1},
+       "objective",
+       "residuals belong to a sum of squares, which this objective is not",
+       "",
+       "integral, terminal and sum terms with weights of at least 0 and the loss square, "
+       "above or below, no peaks and measures, robust.measure mean, and an end of runs that no "
+       "parameter moves"});
 }
 
 void use_adjoint(MotionStudy* study) { study->solver.gradient = GradientMethod::kAdjoint; }

@@ -358,7 +358,7 @@ StudyRecordings load_recordings(const IdentificationDescription& identification,
                                 const std::atomic<bool>* cancel) {
   Context context{identification, robot, folder, reader, warnings, cancel, {}};
   for (const JointDescription& joint : robot.joints)
-    if (has_one_coordinate(joint.type)) context.joints.push_back(joint.name);
+    if (joint.has_one_coordinate()) context.joints.push_back(joint.name);
   StudyRecordings recordings{load(identification.data, context),
                              load(identification.holdout, context)};
   warn_of_repeated(recordings, warnings);

@@ -322,7 +322,7 @@ void unwrap_turns(const RobotDescription& robot, JointRecording* recording, Warn
     const auto found =
         std::find_if(recording->joints.begin(), recording->joints.end(),
                      [&joint](const JointSamples& samples) { return samples.joint == joint.name; });
-    if (!is_turn(joint.type) || found == recording->joints.end()) continue;
+    if (!joint.is_turn() || found == recording->joints.end()) continue;
     std::vector<double>& position = found->position;
     double turns = 0.0;
     std::size_t jumps = 0, first = 0;

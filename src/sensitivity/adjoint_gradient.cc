@@ -24,7 +24,7 @@ AdjointGradient::AdjointGradient(const CompiledSystem& system, int most_points)
       integrator_(system),
       end_(system),
       one_sided_(system) {
-  judge_ = [this](RosenbrockStep<double>* step) { return control_->attempt(step); };
+  judge_ = [this](OneStep<double>* step) { return control_->attempt(step); };
 }
 
 // The workspace of the backward pass is allocated only when a gradient is requested.
@@ -65,8 +65,8 @@ Status AdjointGradient::advance(double limit) {
 }
 
 double AdjointGradient::objective() {
-  return integrator_.of_squares(integrator_.psi(),
-                                integrator_.equations().terminal(integrator_.state()));
+  return integrator_.of_losses(integrator_.psi(),
+                               integrator_.equations().terminal(integrator_.state()));
 }
 
 bool AdjointGradient::look_at_end() {
@@ -143,7 +143,7 @@ void AdjointGradient::add_boundaries(const VectorX<double>& adjoint, const State
   Equations<Lanes<8>>& equations = back_->boundary;
   back_->initial = integrator_.initial_state();
   integrator_.equations().hold({});
-  if (!integrator_.assembly().solve_rates(&integrator_.equations(), &back_->initial).ok())
+  if (!integrator_.assembly().rates().solve(&integrator_.equations(), &back_->initial).ok())
     gradient->setConstant(std::numeric_limits<double>::quiet_NaN());
   integrator_.equations().hold(integrator_.mode());
   const int count = static_cast<int>(gradient->size());

@@ -81,7 +81,7 @@ void AdjointStep::add_products(const Linearization<double>& derivatives, RowRang
 }
 
 // Reverses u_psi = h gamma (g + Sigma_psi + g_y u).
-void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_integrand(std::size_t i, const OneStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = mu_;
   mu[at_.z_size] = step.step_size() * tableau_->gamma * u[at_.psi()];
   sum_adjoint_.setZero();
@@ -91,7 +91,7 @@ void AdjointStep::reverse_integrand(std::size_t i, const RosenbrockStep<double>&
 
 // Reverses u_z = -E^-1 (G + G_q w_q + G_v w_v + G_s w_s); u_v = w_v + h gamma u_a, u_q = w_q + (h
 // gamma)^2 u_a, u_s = w_s + h gamma u_sigma.
-void AdjointStep::reverse_solve(std::size_t i, const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_solve(std::size_t i, const OneStep<double>& step) {
   VectorX<double>&u = increment_adjoints_[i], &mu = mu_;
   const double hg = step.step_size() * tableau_->gamma;
   z_ = u.segment(at_.z(), at_.z_size);
@@ -124,7 +124,7 @@ void AdjointStep::reverse_elimination(std::size_t i, double hg) {
   stage_adjoint_.segment(at_.sigma(), at_.states) = hg * w_s;
 }
 
-void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_point(std::size_t i, const OneStep<double>& step) {
   const In<double> mu = mu_;
   equations_.add_transposed(EquationFunction::kResidual, step.stages()[i],
                             {mu.first(at_.z_size), mu.subspan(at_.z_size, 1), {}, {}},
@@ -138,7 +138,7 @@ void AdjointStep::reverse_point(std::size_t i, const RosenbrockStep<double>& ste
 
 // Reverses u_x = h (v, sigma), u_v = h a, u_psi = h g; z at the end of the step is z of the last
 // stage. G = 0 gives z of each stage.
-void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step) {
+void AdjointStep::reverse_explicit_stage(std::size_t i, OneStep<double>* step) {
   const double h = step->step_size();
   const int z_size = at_.z_size;
   const VectorX<double>& u = increment_adjoints_[i];
@@ -147,10 +147,10 @@ void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* 
   z_.head(at_.n) += h * u.segment(at_.v(), at_.n);
   z_.tail(at_.states) += h * u.segment(at_.s(), at_.states);
   mu_[z_size] = h * u[at_.psi()];
-  if (const auto& [pattern, values] = step->stage_factor(i); pattern) {
+  if (const auto& [pattern, values] = step->explicit_stages().stage_factor(i); pattern) {
     pattern->solve<1>(values, z_);  // symmetric; and g does not depend on z
   } else {
-    step->factor_stage(i);
+    step->explicit_stages().factor_stage(i);
     add_transposed_product(system_.patterns().rate, step->derivatives().rate, {z_size, z_size + 1},
                            1.0, mu_, z_);
     step->stage_matrix().lu().solve_transposed_rows<1>(z_);
@@ -166,7 +166,7 @@ void AdjointStep::reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* 
   for (std::size_t j = 0; j < i; ++j) increment_adjoints_[j] += tableau_->a[i][j] * stage_adjoint_;
 }
 
-void AdjointStep::reverse_stage(std::size_t i, const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_stage(std::size_t i, const OneStep<double>& step) {
   reverse_integrand(i, step);
   reverse_solve(i, step);
   reverse_elimination(i, step.step_size() * tableau_->gamma);
@@ -175,7 +175,7 @@ void AdjointStep::reverse_stage(std::size_t i, const RosenbrockStep<double>& ste
   time_weights_ += step.step_size() * tableau_->gamma_i[i] * mu_;
 }
 
-void AdjointStep::reverse_stages(RosenbrockStep<double>* step) {
+void AdjointStep::reverse_stages(OneStep<double>* step) {
   tableau_ = &step->tableau();
   const bool is_explicit = tableau_->is_explicit();
   for (std::size_t i = 0; i < count(); ++i)
@@ -189,7 +189,7 @@ void AdjointStep::reverse_stages(RosenbrockStep<double>* step) {
 
 // Solves the transposed system of G_z [delta; multipliers] = [0; -error] for mu_, with the adjoint
 // of delta from entry `first` on.
-void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first,
+void AdjointStep::solve_projection(const OneStep<double>& step, int first,
                                    const VectorX<double>& correction, int pair) {
   z_.setZero();
   z_.head(at_.n) = adjoint_.segment(first, at_.n);
@@ -200,8 +200,7 @@ void AdjointStep::solve_projection(const RosenbrockStep<double>& step, int first
   weights_.set(RosenbrockTableau::kMaximumStages + pair, direction_, mu_);
 }
 
-void AdjointStep::reverse_projection(const State<double>& start,
-                                     const RosenbrockStep<double>& step) {
+void AdjointStep::reverse_projection(const State<double>& start, const OneStep<double>& step) {
   if (layout_.m == 0) return;
   const In<double> errors = In<double>(mu_).subspan(layout_.n, layout_.m);
   projected_ = start;

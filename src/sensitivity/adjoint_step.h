@@ -5,7 +5,7 @@
 
 #include "equations/compiled_system.h"
 #include "integration/increment.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 #include "math/arrays.h"
 #include "sparse/sparsity.h"
 
@@ -37,7 +37,7 @@ class MatrixWeights {
   ByVariable<std::vector<double>> weights_;
 };
 
-/// One step of RosenbrockStep differentiated backwards; doc/theory.md (18b), (18c).
+/// One step of OneStep differentiated backwards; doc/theory.md (18b), (18c).
 ///
 /// It holds the adjoint psi_y of the state. Each step is reversed in three calls: the stages in
 /// reverse order (E^T mu_i = ...), the projection at its start, and the matrices, which are
@@ -60,10 +60,10 @@ class AdjointStep {
 
   /// Reverses the stages of the step's last attempt: psi_y at its end becomes psi_y at its start.
   /// @param step of an explicit pair receives the factorization of a stage.
-  void reverse_stages(RosenbrockStep<double>* step);
+  void reverse_stages(OneStep<double>* step);
   /// Reverses the projection of `start`, the unprojected start of the step, as made by
-  /// RosenbrockStep::resume(start).
-  void reverse_projection(const State<double>& start, const RosenbrockStep<double>& step);
+  /// OneStep::resume(start).
+  void reverse_projection(const State<double>& start, const OneStep<double>& step);
   /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices
   /// evaluated there.
   void reverse_matrices(const State<double>& start);
@@ -83,14 +83,14 @@ class AdjointStep {
 
  private:
   std::size_t count() const { return to_index(tableau_->stages); }
-  void reverse_explicit_stage(std::size_t i, RosenbrockStep<double>* step);
-  void reverse_stage(std::size_t i, const RosenbrockStep<double>& step);
-  void reverse_integrand(std::size_t i, const RosenbrockStep<double>& step);
-  void reverse_solve(std::size_t i, const RosenbrockStep<double>& step);
+  void reverse_explicit_stage(std::size_t i, OneStep<double>* step);
+  void reverse_stage(std::size_t i, const OneStep<double>& step);
+  void reverse_integrand(std::size_t i, const OneStep<double>& step);
+  void reverse_solve(std::size_t i, const OneStep<double>& step);
   void reverse_elimination(std::size_t i, double hg);
-  void reverse_point(std::size_t i, const RosenbrockStep<double>& step);
-  void solve_projection(const RosenbrockStep<double>& step, int first,
-                        const VectorX<double>& correction, int pair);
+  void reverse_point(std::size_t i, const OneStep<double>& step);
+  void solve_projection(const OneStep<double>& step, int first, const VectorX<double>& correction,
+                        int pair);
   void add_products(const Linearization<double>& derivatives, RowRange rows,
                     const VectorX<double>& mu, VectorX<double>* adjoint) const;
 

@@ -79,7 +79,7 @@ struct Ends {
 /// The numbers of watched signals whose times lie in the last step (at the start: at t = 0), at the
 /// same times, or along with the guard that is zero at one of its ends.
 void replay_watched(const CompiledSystem& system, const TakenRun& taken, const Ends& ends,
-                    RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step,
+                    RosenbrockIntegrator* integrator, OneStep<Complex>* step,
                     VectorX<Complex>* watched) {
   const double from = step->previous().t, to = step->state().t, h = step->step_size();
   const WatchLayout layout(system.study());
@@ -92,8 +92,8 @@ void replay_watched(const CompiledSystem& system, const TakenRun& taken, const E
       step->interpolate(h > 0.0 ? (time - from) / h : 1.0, &state, &psi);
       state.t = time;
       State<double> real = real_part(state);
-      if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) continue;
-      integrator->assembly().extend_rates(real.z, &step->equations(), &state);
+      if (!integrator->assembly().rates().solve(&integrator->equations(), &real).ok()) continue;
+      integrator->assembly().rates().extend(real.z, &step->equations(), &state);
       (*watched)[place] = step->equations().watched(k, state) +
                           taken.slopes[place] * (time - from < to - time ? ends.begin : ends.end);
     }
@@ -121,7 +121,7 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
 }
 
 /// Carries a complex run over an instant that a guard determines, theory (18g).
-void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, State<Complex>* state) {
+void replay_change(const ModeChange& change, OneStep<Complex>* step, State<Complex>* state) {
   const Complex tau = complex_guard_time(change.guard, change.guard_rate, step);
   const Eigen::Index n = state->v.size(), states = state->s.size();
   const VectorX<double> jump = change.before.z - change.behind.z;
@@ -133,7 +133,7 @@ void replay_change(const ModeChange& change, RosenbrockStep<Complex>* step, Stat
 /// Carries a complex run to the beginning of a step: over a change of the mode and over the events
 /// of sampled controllers.
 void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events,
-                 RosenbrockIntegrator* integrator, RosenbrockStep<Complex>* step) {
+                 RosenbrockIntegrator* integrator, OneStep<Complex>* step) {
   State<Complex> state = step->state();
   if (taken.change.guard >= 0) replay_change(taken.change, step, &state);
   step->equations().hold(taken.mode);
@@ -141,8 +141,8 @@ void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events
   if (events.empty() && taken.change.mode.empty()) return;
   if (!events.empty()) step->equations().jump(events, &state);
   State<double> real = real_part(state);
-  if (!integrator->assembly().solve_rates(&integrator->equations(), &real).ok()) return;
-  integrator->assembly().extend_rates(real.z, &step->equations(), &state);
+  if (!integrator->assembly().rates().solve(&integrator->equations(), &real).ok()) return;
+  integrator->assembly().rates().extend(real.z, &step->equations(), &state);
   step->restart(state);
 }
 
@@ -150,7 +150,7 @@ void replay_jump(const TakenStep& taken, const std::vector<ControlEvent>& events
 Replayed replay(const CompiledSystem& system, const std::vector<Complex>& parameters, TakenRun* run,
                 RosenbrockIntegrator* integrator, const std::vector<double>& real_parameters,
                 const std::atomic<bool>* cancel) {
-  RosenbrockStep<Complex> step(system, integrator->step().tableau());
+  OneStep<Complex> step(system, integrator->step().tableau());
   Replayed result;
   const bool is_watched = run->extremes.values.size() > 0;
   result.watched.setZero(run->extremes.values.size());

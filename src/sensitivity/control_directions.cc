@@ -33,11 +33,11 @@ class Tangent final : public ControlTangent {
                 integrator->mode());
   }
   void jump(RosenbrockIntegrator* integrator) override { step_.jump(integrator); }
-  double attempt(RosenbrockStep<double>* step) override {
+  double attempt(OneStep<double>* step) override {
     step_.attempt(step);
     return step_.error(*step, tolerance_);
   }
-  void accept(const RosenbrockStep<double>& step) override { step_.accept(step); }
+  void accept(const OneStep<double>& step) override { step_.accept(step); }
 
  private:
   const CompiledSystem& system_;

@@ -25,9 +25,9 @@ class ControlTangent {
   /// Carries it over the last jump of the integrator, TangentStep::jump().
   virtual void jump(RosenbrockIntegrator* integrator) = 0;
   /// Computes the stages of the last attempt. @returns their scaled error, acceptable up to 1.
-  virtual double attempt(RosenbrockStep<double>* step) = 0;
-  /// Accepts the last attempt; to be called after RosenbrockStep::accept().
-  virtual void accept(const RosenbrockStep<double>& step) = 0;
+  virtual double attempt(OneStep<double>* step) = 0;
+  /// Accepts the last attempt; to be called after OneStep::accept().
+  virtual void accept(const OneStep<double>& step) = 0;
 };
 
 /// @param system must outlive it; it has at least one tuned parameter.

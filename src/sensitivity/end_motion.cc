@@ -28,14 +28,14 @@ double EndMotion::watched_rate(std::size_t k, Equations<double>* equations) {
 }
 
 std::complex<double> complex_guard_time(int guard, double rate,
-                                        RosenbrockStep<std::complex<double>>* step) {
+                                        OneStep<std::complex<double>>* step) {
   VectorX<std::complex<double>> guards, right;
   step->equations().compiled().switches(step->state(), &guards, &right);
   return {0.0, -guards[guard].imag() / rate};
 }
 
 std::complex<double> EndMotion::complex_time(const std::vector<std::complex<double>>& parameters,
-                                             RosenbrockStep<std::complex<double>>* step) const {
+                                             OneStep<std::complex<double>>* step) const {
   if (!moves()) return 0.0;
   if (guard_ >= 0) return complex_guard_time(guard_, guard_rate_, step);
   const Expression* const duration = system_->study().duration_of_design.get();

@@ -7,7 +7,7 @@
 
 #include "equations/equations.h"
 #include "integration/integrator.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 namespace codesign {
 
@@ -23,7 +23,7 @@ class EndMotion {
   void start() { time_.resize(0); }
   /// Evaluates the rates at the end of a run, has_ended(), with z solved for there.
   /// @param time tau', one entry per tuned parameter [s per unit]. @returns a failure of
-  /// Assembly::solve_rates().
+  /// RateSolution::solve().
   Status evaluate(Integrator* integrator, const Eigen::VectorXd& time);
 
   /// Says that the zero of a guard has ended the run. @param rate s_t + s_x f of it. @param time
@@ -36,7 +36,7 @@ class EndMotion {
   /// i tau' of a run in complex numbers. @param parameters complex ones. @param step has reached
   /// the end.
   std::complex<double> complex_time(const std::vector<std::complex<double>>& parameters,
-                                    RosenbrockStep<std::complex<double>>* step) const;
+                                    OneStep<std::complex<double>>* step) const;
   /// Adds what this end changes in a complex run. @param times of the watched numbers [s].
   void add_change(const std::complex<double>& time, const Eigen::VectorXd& times,
                   Equations<double>* equations, std::complex<double>* objective,
@@ -67,7 +67,7 @@ class EndMotion {
 /// In complex numbers a guard is zero at the time t_e + i tau', theory (18g): i tau' at the end of
 /// a step. @param rate s_t + s_x f of the guard.
 std::complex<double> complex_guard_time(int guard, double rate,
-                                        RosenbrockStep<std::complex<double>>* step);
+                                        OneStep<std::complex<double>>* step);
 
 /// The derivatives of duration_at() by the tuned parameters; zero without an expression.
 Eigen::VectorXd duration_gradient(const MotionStudy& study, const std::vector<double>& parameters);

@@ -38,7 +38,7 @@ class GradientEngine {
   /// Assembles the initial state of a design. @param parameters all named parameters
   /// (Study::parameters order). @param derivatives kGradient: gradient() will be called;
   /// kGaussNewton: gradient() and jacobian_root() will be called. @returns the status of
-  /// assemble_start(), or kInvalidDesign for kGaussNewton and a negative weight.
+  /// assemble_start(), or kInvalidDesign for kGaussNewton and terms that are no squares.
   virtual Status start(const std::vector<double>& parameters, Derivatives derivatives) = 0;
   /// Takes one step that ends at `limit` [s] or before, with sensitivities if start() was called
   /// with derivatives.

@@ -51,7 +51,7 @@ IdasTangent::IdasTangent(const CompiledSystem& system)
 void IdasTangent::start(const std::vector<double>& parameters, const State<double>& initial,
                         Integrator* integrator, std::vector<State<double>>* sensitivities,
                         std::vector<double>* scales) {
-  matrix_.keep_pivots_of(integrator->assembly().rates_matrix());
+  matrix_.keep_pivots_of(integrator->assembly().rates().matrix());
   matrix_.reset_pivots();
   groups_.for_each([&](auto* group) {
     group->range.seed(system_, parameters, &group->parameters);
@@ -270,13 +270,13 @@ Status IdasGradient::advance(double limit) {
 
 const State<double>& IdasGradient::consistent_state() {
   end_ = integrator_.state();
-  integrator_.assembly().solve_rates(&integrator_.equations(), &end_);
+  integrator_.assembly().rates().solve(&integrator_.equations(), &end_);
   return end_;
 }
 
 double IdasGradient::objective() {
-  return integrator_.of_squares(integrator_.psi(),
-                                integrator_.equations().terminal(consistent_state()));
+  return integrator_.of_losses(integrator_.psi(),
+                               integrator_.equations().terminal(consistent_state()));
 }
 
 void IdasGradient::take_directions() {

@@ -9,13 +9,13 @@ namespace codesign {
 
 Status solve_motion(Integrator* integrator, State<double>* state, State<double>* rates) {
   Equations<double>& equations = integrator->equations();
-  if (Status status = integrator->assembly().solve_rates(&equations, state); !status.ok())
+  if (Status status = integrator->assembly().rates().solve(&equations, state); !status.ok())
     return status;
   rates->t = state->t;
   rates->q = state->v;
   rates->v = state->z.head(state->v.size());
   rates->s = state->z.tail(state->s.size());
-  integrator->assembly().differentiate_rates(*state, &equations, rates);
+  integrator->assembly().rates().differentiate(*state, &equations, rates);
   return {};
 }
 

@@ -29,20 +29,28 @@ Status ResidualRows::start(Integrator* integrator, Differentiate differentiate) 
   time_ = integrator->state().t;
   root_.start(to_signed(system_.study().tuned.size()));
   for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal})
-    if (Status status = check_weights(part); !status.ok()) return status;
+    if (Status status = check_squares(part); !status.ok()) return status;
   return {};
 }
 
-Status ResidualRows::check_weights(ObjectivePart part) const {
+Status ResidualRows::check_squares(ObjectivePart part) const {
   const bool terminal = part == ObjectivePart::kTerminal;
   const auto& design = integrator_->equations().formulas().view().design;
   const std::vector<double>& weights = (terminal ? design.terminal : design.integral).weights;
-  for (std::size_t k = 0; k < weights.size(); ++k)
-    if (!(weights[k] >= 0.0))
+  const std::vector<ResolvedTerm>& terms = terminal ? system_.terminal() : system_.integral();
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    const bool is_square = terms[k].loss->is_square();
+    if (is_square && weights[k] >= 0.0) continue;
+    const std::string term = std::string("objective.") + (terminal ? "terminal[" : "integral[") +
+                             std::to_string(k) + "]";
+    if (is_square)
       return {StatusCode::kInvalidDesign, 0.0,
-              std::string("the weight of objective.") + (terminal ? "terminal[" : "integral[") +
-                  std::to_string(k) + "] is " + to_decimal(weights[k]) +
+              "the weight of " + term + " is " + to_decimal(weights[k]) +
                   " at this design; a sum of squares has weights of 0 or more"};
+    return {StatusCode::kInvalidDesign, 0.0,
+            "the loss of " + term + " is " + terms[k].loss->name +
+                "; a sum of squares has the losses square, above and below"};
+  }
   return {};
 }
 

@@ -25,7 +25,7 @@ class ResidualRows {
   explicit ResidualRows(const CompiledSystem& system);
 
   /// Begins a run: to be called after integrator->start(). kInvalidDesign for a negative weight,
-  /// which has no real root.
+  /// which has no real root, and for a loss that is no square.
   Status start(Integrator* integrator, Differentiate differentiate);
   /// Adds the rows of the step that the integrator has just taken.
   void look();
@@ -36,7 +36,7 @@ class ResidualRows {
   void finish(const State<double>& state, Eigen::MatrixXd* root);
 
  private:
-  Status check_weights(ObjectivePart part) const;
+  Status check_squares(ObjectivePart part) const;
   void add(double weight, Eigen::MatrixXd* rows);
 
   const CompiledSystem& system_;

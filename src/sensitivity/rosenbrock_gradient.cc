@@ -30,7 +30,7 @@ RosenbrockGradient::RosenbrockGradient(const CompiledSystem& system, int most_la
       one_sided_(system),
       is_identity_(control_directions(system).isIdentity()) {
   const double tolerance = sensitivity_tolerance(system.study().solver);
-  stages_ = [this, tolerance](RosenbrockStep<double>* step) {
+  stages_ = [this, tolerance](OneStep<double>* step) {
     double error = control_ ? control_->attempt(step) : 0.0;
     if (error > 1.0) return error;
     groups_->for_each([&](auto* group) {
@@ -207,8 +207,8 @@ Status RosenbrockGradient::advance(double limit) {
 }
 
 double RosenbrockGradient::objective() {
-  return integrator_.of_squares(integrator_.psi(),
-                                integrator_.equations().terminal(integrator_.state()));
+  return integrator_.of_losses(integrator_.psi(),
+                               integrator_.equations().terminal(integrator_.state()));
 }
 
 void RosenbrockGradient::gradient(Eigen::VectorXd* gradient) {

@@ -93,7 +93,7 @@ bool SignalWatch::go_to(std::size_t k, double time) {
   double psi = 0.0;
   integrator_->interpolate(time, &state_, &psi);
   if (!curves_[k].reads_rates) return true;
-  const Status solved = integrator_->assembly().solve_rates(&integrator_->equations(), &state_);
+  const Status solved = integrator_->assembly().rates().solve(&integrator_->equations(), &state_);
   if (!solved.ok()) status_ = solved;
   return solved.ok();
 }
@@ -113,7 +113,7 @@ SignalWatch::Sample SignalWatch::sample(std::size_t k, double time) {
   if (!status_.ok() || !go_to(k, time)) return result;
   integrator_->interpolate_rates(time, &rates_);
   if (curves_[k].reads_rates)
-    integrator_->assembly().differentiate_rates(state_, &integrator_->equations(), &rates_);
+    integrator_->assembly().rates().differentiate(state_, &integrator_->equations(), &rates_);
   result.value = integrator_->equations().watched_gradient(k, state_, &sparse_);
   result.slope = rate_along(sparse_, rates_, system_.layout());
   if (!std::isfinite(result.value) || !std::isfinite(result.slope)) status_ = failed(k, time);

@@ -20,7 +20,7 @@ void StepReplay::start(const RosenbrockIntegrator& run) {
 }
 
 void StepReplay::store_step(const RosenbrockIntegrator& run) {
-  const RosenbrockStep<double>& step = run.step();
+  const OneStep<double>& step = run.step();
   path_.append(step.step_size(), step.tableau(), step.unprojected(), step.state().t);
 }
 
@@ -43,7 +43,7 @@ bool StepReplay::carry_over(const RunJump& jump) {
   before_ = behind_ = step_.state();
   if (!jump.events.empty()) equations.jump(jump.events, &behind_);
   equations.hold(jump.mode);
-  if (!assembly_->solve_rates(&equations, &behind_).ok()) return false;
+  if (!assembly_->rates().solve(&equations, &behind_).ok()) return false;
   step_.restart(behind_);
   return true;
 }

@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "assembly/assembly.h"
+#include "integration/one_step.h"
 #include "integration/rosenbrock_integrator.h"
-#include "integration/rosenbrock_step.h"
 #include "sensitivity/run_jumps.h"
 #include "sensitivity/step_path.h"
 
@@ -34,7 +34,7 @@ class StepReplay {
   bool repeat(int k, const std::atomic<bool>* cancel);
 
   /// The step after repeat().
-  RosenbrockStep<double>& step() { return step_; }
+  OneStep<double>& step() { return step_; }
   /// The unprojected end of step k.
   const State<double>& point() const { return point_; }
   /// The jump at point k, with the states before and behind it; null if there is none.
@@ -50,7 +50,7 @@ class StepReplay {
   bool take_up(int k);
   bool carry_over(const RunJump& jump);
 
-  RosenbrockStep<double> step_;
+  OneStep<double> step_;
   StepPath path_;
   RunJumps jumps_;
   Assembly* assembly_ = nullptr;

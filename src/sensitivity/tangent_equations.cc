@@ -1,7 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Directional derivatives of the equations, for the tangent of a step.
-#include "sensitivity/lane_directions.h"
-#include "sensitivity/tangent_step.h"
+#include "sensitivity/tangent_equations.h"
 
 namespace codesign {
 

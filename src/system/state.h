@@ -91,7 +91,7 @@ struct Layout {
   /// The coordinate in q of an element of a pair's chain; -1 for a cut pair, and for an element
   /// with several coordinates.
   int element_column(int pair, int element) const {
-    return is_cut(pair) || forest.is_plane[to_index(pair)]
+    return is_cut(pair) || forest.has_several[to_index(pair)]
                ? -1
                : column(forest.body_below[to_index(pair)]) + element;
   }

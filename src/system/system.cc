@@ -175,7 +175,7 @@ void System::resolve_objective() {
   const auto resolve = [this](const std::vector<ObjectiveTerm>& terms,
                               std::vector<ResolvedTerm>* resolved) {
     for (std::size_t k = 0; k < terms.size(); ++k) {
-      resolved->push_back({resolve_named(terms[k].signal), static_cast<int>(k)});
+      resolved->push_back({resolve_named(terms[k].signal), static_cast<int>(k), terms[k].loss});
     }
   };
   resolve(study().integral, &integral_);

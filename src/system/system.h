@@ -12,6 +12,7 @@
 #include "description/robot.h"
 #include "forces/bristles.h"
 #include "mechanism/topology.h"
+#include "system/joint_load.h"
 #include "system/reaction_sharing.h"
 #include "system/state.h"
 
@@ -19,39 +20,11 @@ namespace codesign {
 
 struct Study;
 
-/// The signal of one objective term, weight (signal - reference)^2; theory (21).
+/// The signal and the loss of one objective term, weight rho(signal - reference); theory (21).
 struct ResolvedTerm {
   Signal signal;
   int description = 0;  ///< index into Study::integral or Study::terminal
-};
-
-/// The loads that act along one joint coordinate: which kinds there are, not their numbers; theory
-/// (13).
-struct JointLoad {
-  int pair = -1,
-      element = -1;            ///< the coordinate: index in Topology::pairs and in the pair's chain
-  bool friction = false;       ///< an annotated friction law acts on this coordinate
-  bool direct = false;         ///< in N m or N, without a normal force; theory (10a)
-  bool directional = false;    ///< its numbers differ with the sign of the velocity
-  bool viscous_power = false;  ///< its viscous part has an exponent
-  bool constant_friction = false;  ///< `<dynamics friction>`
-  bool gear = false;               ///< losses of gear and motor, theory (9b)
-  bool gear_transmits = false;     ///< some of them in proportion to the transmitted torque
-  /// index of that torque among the unknowns; -1: it follows from the wrench that the joint
-  /// transmits
-  int gear_unknown = -1;
-  bool passive = false;          ///< damping or a torsion spring
-  bool spring = false;           ///< a torsion spring, which depends on the position
-  int elastic = -1;              ///< index in System::elastic_gears() of a gear that acts here
-  bool is_motor = false;         ///< the coordinate is that of its motor
-  bool stop = false;             ///< `<limit lower upper>` as stops
-  bool saturated = false;        ///< `<limit effort>` bounds the effort of the controllers
-  std::vector<int> controllers;  ///< indices of the controllers that drive this coordinate
-  std::vector<int> given;        ///< indices into Study::loads
-
-  /// Whether the load depends on the position of the coordinate, not on its rate alone.
-  bool needs_position() const { return spring || stop; }
-  bool has_friction() const { return friction || constant_friction || gear; }
+  LossKind loss = LossKind::kSquare;
 };
 
 /// A gear whose motor moves by itself, theory (9c): the coordinates of its joint and of its motor.
@@ -188,7 +161,10 @@ class System {
   void check_signals() const;
   void check_effort_rate(const SignalReference& term, const SignalDescription& description) const;
   void collect_elastic_gears();
-  void join_elastic_gear(JointLoad* load) const;
+  void add_elastic_gear(JointLoad* load) const;
+  void add_loads_of(const JointDescription& joint, bool slips_in_contact, int* unknowns,
+                    JointLoad* load) const;
+  void add_efforts(const JointDescription* joint, JointLoad* load) const;
   void collect_loads();
   void collect_link_loads();
   void collect_rotors();

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // What acts on the coordinates and links of a system: loads, rotors, friction with states.
 #include <algorithm>
+#include <utility>
 
 #include "description/study.h"
 #include "math/arrays.h"
@@ -52,13 +53,52 @@ CoordinateIndex System::motor_of(int pair, int element) const {
   return joint;
 }
 
-void System::join_elastic_gear(JointLoad* load) const {
+void System::add_elastic_gear(JointLoad* load) const {
   const CoordinateIndex at{load->pair, load->element};
   for (std::size_t k = 0; k < elastic_gears_.size(); ++k) {
-    load->is_motor = load->is_motor || elastic_gears_[k].motor == at;
-    if (load->is_motor || elastic_gears_[k].joint == at) load->elastic = static_cast<int>(k);
-    if (load->elastic >= 0) return;
+    const bool is_motor = elastic_gears_[k].motor == at;
+    if (!is_motor && !(elastic_gears_[k].joint == at)) continue;
+    load->parts.emplace_back(ElasticGearSide{static_cast<int>(k), is_motor});
+    return;
   }
+}
+
+/// What acts along the coordinate of a joint but the bearing's friction, gears and efforts; sets
+/// what is known of its gear's torque.
+void System::add_loads_of(const JointDescription& joint, bool slips_in_contact, int* unknowns,
+                          JointLoad* load) const {
+  if (!joint.damping.is_zero() || joint.spring)
+    load->parts.emplace_back(PassiveLoad{joint.spring.has_value()});
+  if (!joint.dry_friction.is_zero()) load->parts.emplace_back(DryFriction{});
+  if (study().limits.position && has_stops(joint)) load->parts.emplace_back(StopLoad{});
+  // Behind an elastic gear the losses are the motor's, and the spring gives the torque.
+  load->has_gear_torque = joint.has_gear_torque() && joint.motor < 0;
+  if (!load->has_gear_torque) return;
+  if (slips_in_contact)
+    throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
+                      "the joint is folded into one that slips in several directions with "
+                      "friction, which the efficiency of a gear does not know",
+                      topology_.pairs[to_index(load->pair)].name,
+                      "no efficiency, or no <codesign:friction>"});
+  if (layout_.is_cut(load->pair) && !joint.is_motor) load->gear_unknown = (*unknowns)++;
+}
+
+/// Efforts of the study, losses of the gear, and controllers. @param joint null: a coordinate
+/// beyond those of the chain
+void System::add_efforts(const JointDescription* joint, JointLoad* load) const {
+  for (std::size_t k = 0; joint && k < study().loads.size(); ++k)
+    if (study().loads[k].joint == joint->name)
+      load->parts.emplace_back(GivenEffort{static_cast<int>(k)});
+  if (joint && joint->actuator && joint->actuator->gear && joint->motor < 0)
+    load->parts.emplace_back(GearLoss{});
+  ControllerEffort effort;
+  effort.saturated =
+      joint && study().limits.effort && joint->limit && joint->limit->bounds_effort();
+  for (std::size_t c = 0; c < controllers_.size(); ++c)
+    if (motor_of(controllers_[c].pair, controllers_[c].element) ==
+        CoordinateIndex{load->pair, load->element})
+      effort.controllers.push_back(static_cast<int>(c));
+  if (!effort.controllers.empty()) load->parts.emplace_back(std::move(effort));
 }
 
 void System::collect_loads() {
@@ -71,45 +111,18 @@ void System::collect_loads() {
       JointLoad load;
       load.pair = static_cast<int>(p);
       load.element = static_cast<int>(e);
-      load.friction = pair.friction_joint >= 0 && !contact;
-      if (load.friction) {
+      if (pair.friction_joint >= 0 && !contact) {
         const FrictionDescription& f = *robot_.joints[to_index(pair.friction_joint)].friction;
-        load.direct = f.is_direct;
-        load.directional = f.is_directional;
-        load.viscous_power = f.has_exponent;
+        load.parts.emplace_back(BearingFriction{f.is_direct, f.is_directional, f.has_exponent});
       }
-      if (e < pair.chain.size()) {
-        const JointDescription& joint = robot_.joints[to_index(pair.chain[e].joint)];
-        load.constant_friction = !joint.dry_friction.is_zero();
-        // Behind an elastic gear the losses are the motor's, and the spring gives the torque.
-        const bool is_apart = joint.motor >= 0;
-        load.gear = joint.actuator && joint.actuator->gear && !is_apart;
-        load.gear_transmits = joint.has_gear_torque() && !is_apart;
-        if (load.gear_transmits && contact)
-          throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
-                            "the joint is folded into one that slips in several directions with "
-                            "friction, which the efficiency of a gear does not know",
-                            pair.name, "no efficiency, or no <codesign:friction>"});
-        if (load.gear_transmits && layout_.is_cut(load.pair) && !joint.is_motor)
-          load.gear_unknown = unknowns++;
-        load.spring = joint.spring.has_value();
-        load.passive = !joint.damping.is_zero() || load.spring;
-        load.stop = study().limits.position && has_stops(joint);
-        load.saturated = study().limits.effort && joint.limit && joint.limit->bounds_effort();
-        for (std::size_t k = 0; k < study().loads.size(); ++k)
-          if (study().loads[k].joint == joint.name) load.given.push_back(static_cast<int>(k));
-      }
-      join_elastic_gear(&load);
-      const CoordinateIndex at{load.pair, load.element};
-      for (std::size_t c = 0; c < controllers_.size(); ++c)
-        if (motor_of(controllers_[c].pair, controllers_[c].element) == at)
-          load.controllers.push_back(static_cast<int>(c));
-      const bool driven = !load.controllers.empty() || !load.given.empty();
-      if (!load.has_friction() && !load.gear_transmits && !load.passive && load.elastic < 0 &&
-          !load.stop && !driven)
-        continue;
+      const JointDescription* joint =
+          e < pair.chain.size() ? &robot_.joints[to_index(pair.chain[e].joint)] : nullptr;
+      if (joint) add_loads_of(*joint, contact, &unknowns, &load);
+      add_elastic_gear(&load);
+      add_efforts(joint, &load);
+      if (load.parts.empty() && !load.has_gear_torque) continue;
       if (!has_coordinate_[p][e]) refuse_load(load.pair, load.element);
-      loads_.push_back(load);
+      loads_.push_back(std::move(load));
     }
   }
 }
@@ -188,8 +201,9 @@ void System::add_bristle(BristleContact contact) {
 
 void System::collect_bristles() {
   for (const JointLoad& load : loads_) {
-    if (load.friction) add_bristle({friction_law(load.pair), load.pair, load.element, 0, 1, false});
-    if (load.gear)
+    if (load.find<BearingFriction>())
+      add_bristle({friction_law(load.pair), load.pair, load.element, 0, 1, false});
+    if (load.find<GearLoss>())
       add_bristle({gear_law(load.pair, load.element), load.pair, load.element, 0, 1, true});
   }
   for (int contact : contacts_)

@@ -13,21 +13,6 @@
 
 namespace codesign {
 
-int coordinates_of(JointType type) {
-  switch (type) {
-    case JointType::kRevolute:
-    case JointType::kContinuous:
-    case JointType::kPrismatic:
-      return 1;
-    case JointType::kPlanar:
-      return 3;
-    case JointType::kFloating:
-      return 6;
-    default:
-      return 0;
-  }
-}
-
 namespace {
 
 /// Pose and twist of a joint's child frame relative to the joint frame, which is the child frame at
@@ -43,7 +28,7 @@ RelativeMotion<T> joint_motion(const JointDescription& joint, const std::vector<
                                In<T> theta, In<T> rate) {
   RelativeMotion<T> m;
   int k = 0;
-  visit_steps(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
+  visit_freedoms(joint, parameters, [&](bool turns, const Vector3<T>& axis) {
     const Vector3<T> u = m.X.R * axis;
     (turns ? m.omega : m.velocity) += u * rate[k];
     if (turns)
@@ -52,7 +37,7 @@ RelativeMotion<T> joint_motion(const JointDescription& joint, const std::vector<
       m.X.t += u * theta[k];
     ++k;
   });
-  if (joint.type == JointType::kFloating)
+  if (joint.freedoms().turns == 3)
     m.X.R = m.X.R * rotation_from_rpy<T>(vector_at(joint.start_rotation, parameters));
   return m;
 }
@@ -81,7 +66,7 @@ TreeLayout::TreeLayout(const RobotDescription& robot) : offset(robot.joints.size
   }
   for (int k : joint_order) {
     offset[to_index(k)] = size;
-    size += coordinates_of(robot.joints[to_index(k)].type);
+    size += robot.joints[to_index(k)].freedoms().size();
   }
   for (std::size_t k = 0; k < robot.joints.size(); ++k)
     if (robot.joints[k].motor >= 0)
@@ -98,7 +83,7 @@ void link_motions(const RobotDescription& robot, const TreeLayout& layout,
     const JointDescription& joint = robot.joints[to_index(k)];
     const LinkMotion<T>& parent = links[to_index(joint.parent)];
     LinkMotion<T>& child = links[to_index(joint.child)];
-    const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
+    const int first = layout.offset[to_index(k)], count = joint.freedoms().size();
     const Pose<T> X_GF = parent.X * pose_at(joint.origin, parameters);
     const RelativeMotion<T> m = joint_motion(joint, parameters, In<T>(theta).subspan(first, count),
                                              In<T>(theta_rate).subspan(first, count));
@@ -117,7 +102,7 @@ void coordinate_twists(const RobotDescription& robot, const TreeLayout& layout,
   twists.resize(to_index(layout.size));
   for (int k : layout.joint_order) {
     const JointDescription& joint = robot.joints[to_index(k)];
-    const int first = layout.offset[to_index(k)], count = coordinates_of(joint.type);
+    const int first = layout.offset[to_index(k)], count = joint.freedoms().size();
     if (count == 0) continue;
     const Matrix3<double> R = links[to_index(joint.parent)].X.R *
                               rotation_from_rpy<double>(vector_at(joint.origin.rpy, parameters));
@@ -198,7 +183,7 @@ void state_coordinates(const System& system, const TreeLayout& layout,
     }
     for (const ChainElement& element : topology.pairs[to_index(at.forest.pair_above[b])].chain) {
       const auto joint = to_index(element.joint);
-      for (int k = 0; k < coordinates_of(system.robot().joints[joint].type); ++k, ++c) {
+      for (int k = 0; k < system.robot().joints[joint].freedoms().size(); ++k, ++c) {
         (*q)[c] = theta[layout.offset[joint] + k];
         (*v)[c] = theta_rate[layout.offset[joint] + k];
       }
@@ -233,7 +218,7 @@ RobotDescription with_start(RobotDescription robot, const MotionStudy& study) {
     if (initial.position) description.start_position = initial.position;
     if (initial.guess) description.start_position = Quantity(*initial.guess);
     if (!initial.rotation) continue;
-    if (description.type == JointType::kFloating) description.start_rotation = *initial.rotation;
+    if (description.freedoms().turns == 3) description.start_rotation = *initial.rotation;
   }
   return robot;
 }

@@ -13,10 +13,9 @@
 
 namespace codesign {
 
-/// The places of the tree joints' coordinates in theta [rad or m]. A revolute, continuous or
-/// prismatic joint has one, a planar joint three (x, y, turn), a fixed joint none. A floating joint
-/// has six: the translation, then turns about x, y, z that follow JointDescription::start_rotation;
-/// where the turns are zero their rates are the angular velocity in the joint frame.
+/// The places of the tree joints' coordinates in theta [rad or m]: each has as many as freedoms
+/// (JointFreedoms). Three turns follow JointDescription::start_rotation; where they are zero their
+/// rates are the angular velocity in the joint frame.
 struct TreeLayout {
   std::vector<int> joint_order;  ///< tree joints, parents before children
   /// per joint of the description: its first coordinate; meaningless for loops
@@ -27,9 +26,6 @@ struct TreeLayout {
 
   explicit TreeLayout(const RobotDescription& robot);
 };
-
-/// How many coordinates a joint of the tree has.
-int coordinates_of(JointType type);
 
 /// Pose of a link frame in the ground frame, its angular velocity [rad/s] and the velocity of its
 /// origin [m/s], in ground axes.

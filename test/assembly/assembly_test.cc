@@ -117,7 +117,7 @@ TEST(Assembly, ObeysACancel) {
   c.assembly.obey(nullptr);
   ASSERT_TRUE(c.start().ok());
   c.assembly.obey(&cancel);
-  EXPECT_EQ(c.assembly.solve_rates(&c.equations, &c.state).code, StatusCode::kCancelled);
+  EXPECT_EQ(c.assembly.rates().solve(&c.equations, &c.state).code, StatusCode::kCancelled);
 }
 
 TEST(Assembly, VelocitiesThatContradictEachOtherAreAStatus) {

@@ -85,8 +85,8 @@ TEST(JointDescription, TheElementTellsLoopsFromJoints) {
 TEST(JointType, OneCoordinate) {
   for (const RowReference<JointLaw>& joint : standard_laws().joints) {
     const bool turn = joint->type == JointType::kRevolute || joint->type == JointType::kContinuous;
-    EXPECT_EQ(is_turn(joint->type), turn) << static_cast<int>(joint->type);
-    EXPECT_EQ(has_one_coordinate(joint->type), turn || joint->type == JointType::kPrismatic)
+    EXPECT_EQ(joint->is_turn(), turn) << static_cast<int>(joint->type);
+    EXPECT_EQ(joint->has_one_coordinate(), turn || joint->type == JointType::kPrismatic)
         << static_cast<int>(joint->type);
   }
 }

@@ -97,7 +97,7 @@ TEST(EffortRate, IsTheSlopeOfTheEffort) {
   equations.set_design(system.parameters());
   ASSERT_TRUE(assembly.solve(system.parameters(), &equations, &state).ok());
   state.s[0] = 0.2;
-  ASSERT_TRUE(assembly.solve_rates(&equations, &state).ok());
+  ASSERT_TRUE(assembly.rates().solve(&equations, &state).ok());
   Formulas<double>& formulas = equations.formulas();
   const auto resolve = [&](const char* signal) {
     return resolve_signal(parse_signal(signal, {}, "signal"), system.robot(), system.topology(),

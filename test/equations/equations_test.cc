@@ -79,7 +79,7 @@ TEST_F(EquationsTest, ConstraintRowsAreTheSecondDerivativeOfPhi) {
 TEST_F(EquationsTest, FrictionIsTheForceOnTheChildAgainstItsMotion) {
   real.formulas().load(state);
   for (const JointLoad& load : system.loads()) {
-    if (!load.friction) continue;
+    if (!load.find<BearingFriction>()) continue;
     const FrictionState<double> friction = real.formulas().friction(load.pair, load.element);
     EXPECT_GT(friction.load * friction.velocity, 0.0);
     EXPECT_GT(friction.normal, 0.0);

@@ -35,7 +35,7 @@ bool scramble(Compiled* c, double amount) {
   state.v = allowed(jacobian(), waves(state.v.size(), 1.1));
   c->equations.constraint_errors(state, &Phi, &Phi_rate);
   return Phi.norm() < 1e-12 && Phi_rate.norm() < 1e-12 &&
-         c->assembly.solve_rates(&c->equations, &state).ok();
+         c->assembly.rates().solve(&c->equations, &state).ok();
 }
 
 }  // namespace codesign

@@ -40,7 +40,9 @@ std::string tuned(const std::string& setpoint, const std::string& controller,
          setpoint + controller + ", gains: {p: \"${Kp}\", d: \"${Kd}\"}}}\n" +
          "parameters: {Kp: {initial: 20.0, lower: 1.0, upper: 60.0}, Kd: {initial: 3.0, lower: "
          "0.1, upper: 20.0}}\n"
-         "objective:\n  integral: [{signal: c/error, weight: 100.0}]\n"
+         "objective:\n  integral: [{signal: c/error, weight: 100.0}, {signal: c/output, loss: "
+         "huber, "
+         "scale: 2.0, weight: 1.0e-3}]\n"
          "optimizer: {algorithm: slsqp, max_evaluations: 3}\n" +
          more;
 }

@@ -138,6 +138,25 @@ def pulse_from_rest(A):
     return (A * integral(lambda t: cmath.exp(-((t - 7.131) / 0.003) ** 2) * damped(1.0, 0.1, 0.0, 1.0, 10.0 - t)[0], 7.101, 7.161, 40) - 0.5) ** 2
 
 
+def huber_sides(a, v0, c):
+    """of x - a for 2 s along x = v0 t, which passes both a - c and a + c"""
+    return sum(c * (u * u - c * c) - c * c * (u - c) + c ** 3 / 3.0 for u in (a, 2.0 * v0 - a)) / v0
+
+
+def way_of_oscillator(k, b):
+    """the integral of |x'| for 7 s from x = 1 at rest"""
+    half = cmath.pi / cmath.sqrt(k - b * b / 4.0)
+    places = [damped(k, b, 1.0, 0.0, turn * half)[0] for turn in range(int(7.0 / half.real) + 1)] + [damped(k, b, 1.0, 0.0, 7.0)[0]]
+    return sum((-1) ** n * (one - other) for n, (one, other) in enumerate(zip(places, places[1:])))
+
+
+def soft_bounds(F, high, low):
+    """x = F t^2/2 for 2 s: the square of what is above, and three times that of what is below"""
+    beyond = [integral(lambda t, edge=edge: (F * t * t / 2.0 - edge) ** 2, *times) for edge, times in
+              ((high, (cmath.sqrt(2.0 * high / F), 2.0)), (low, (0.0, cmath.sqrt(2.0 * low / F))))]
+    return beyond[0] + 3.0 * beyond[1] + (2.0 * F - high) ** 2
+
+
 def held_pendulum(goal, arm):
     return (integrated(lambda x, v: (20.0 * (goal - x) - 2.0 * v - 9.81 * arm * cmath.sin(x)) / (arm * arm + 0.01), 0.0, 0.0, 3.0, 1e-2)[0] - 0.5) ** 2
 
@@ -252,4 +271,29 @@ initial_state: {slide: {velocity: 3}}
 loads: [{joint: slide, effort: "${-F}"}]
 objective: {terminal: [{signal: slide/position}], integral: [{signal: slide/velocity}]}""", {"F": (4, 1, 9)}, lambda F: (4.5 / F) ** 2 + 9.0 / F),
 ]
-CASES = AT_TIMES + AT_STATES + EXTREMES + PULSES + AT_REST + ENDS
+ALONG = 'duration: 2\ninitial_state: {slide: {velocity: "${v0}"}}\nobjective: {integral: [{signal: slide/position, reference: "${a}", loss: LOSS}]}'
+LOSSES = [
+    ClosedForm("the distance from a place", SLIDE, ALONG.replace("LOSS", "absolute"), {"a": (0.7, 0.1, 1.5), "v0": (1.1, 0.5, 2)},
+               lambda a, v0: (a * a + (2.0 * v0 - a) ** 2) / (2.0 * v0)),
+    ClosedForm("the way of an oscillator", SPRING, """
+duration: 7
+initial_state: {slide: {position: 1}}
+objective: {integral: [{signal: slide/velocity, loss: absolute}]}""", {"k": (1, 0.5, 100), "b": (0.1, 0.01, 10)}, way_of_oscillator),
+    ClosedForm("a Huber loss beyond its scale", SLIDE, ALONG.replace("LOSS", 'huber, scale: "${c}"'), {"a": (0.9, 0.1, 1.5), "v0": (1.2, 0.5, 2), "c": (0.3, 0.1, 1)}, huber_sides),
+    ClosedForm("a soft L1 loss", SLIDE, ALONG.replace("LOSS", 'soft_l1, scale: "${c}"'), {"a": (0.9, 0.1, 1.5), "v0": (1.2, 0.5, 2), "c": (0.3, 0.1, 1)},
+               lambda a, v0, c: integral(lambda t: 2.0 * c * c * (cmath.sqrt(1.0 + ((v0 * t - a) / c) ** 2) - 1.0), 0.0, 2.0, 20)),
+    ClosedForm("soft bounds that a position passes", SLIDE, """
+duration: 2
+loads: [{joint: slide, effort: "${F}"}]
+objective:
+  integral: [{signal: slide/position, reference: "${high}", loss: above}, {signal: slide/position, reference: "${low}", loss: below, weight: 3}]
+  terminal: [{signal: slide/position, reference: "${high}", loss: above}, {signal: slide/position, reference: "${low}", loss: below}]""",
+               {"F": (1.3, 0.5, 3), "high": (1.1, 0.5, 2), "low": (0.6, 0.1, 1)}, soft_bounds),
+    ClosedForm("losses of the end", SLIDE, """
+duration: 2
+loads: [{joint: slide, effort: "${F}"}]
+objective:
+  terminal: [{signal: slide/position, reference: "${u}", loss: absolute}, {signal: slide/velocity, reference: 2, loss: huber, scale: "${c}", weight: 2}]""",
+               {"F": (1.3, 0.5, 3), "u": (1.1, 0.5, 2), "c": (0.4, 0.1, 0.5)}, lambda F, u, c: 2.0 * F - u + 2.0 * c * (2.0 * (2.0 * F - 2.0) - c)),
+]
+CASES = AT_TIMES + AT_STATES + EXTREMES + PULSES + AT_REST + ENDS + LOSSES

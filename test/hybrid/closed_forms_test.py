@@ -15,7 +15,7 @@ import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from closed_forms import AT_STATES, AT_TIMES, CASES, ENDS  # noqa: E402
+from closed_forms import AT_STATES, AT_TIMES, CASES, ENDS, LOSSES  # noqa: E402
 
 PAGE = pathlib.Path(__file__).resolve().parents[2] / "doc" / "events.md"
 TIGHT = "relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-10"
@@ -62,7 +62,7 @@ def other_way(case, way, answer):
 
 def silent_adjoints(answers):
     """Groups of motions in which no adjoint differs from the direct gradient by as much as its rounding: it was the direct one."""
-    for name, cases in (("at times", AT_TIMES), ("at states", AT_STATES), ("ends", ENDS)):
+    for name, cases in (("at times", AT_TIMES), ("at states", AT_STATES), ("ends", ENDS), ("losses", LOSSES)):
         if not any(answers[case.name]["adjoint"].gradient != answers[case.name]["joint"].gradient for case in cases):
             yield f"{name}: every gradient of the way adjoint has the bits of the direct one"
 

@@ -27,7 +27,7 @@ RecordedMotion record_motion(const CompiledSystem& system, const std::vector<std
   Assembly assembly(system);
   for (int sample = 0; sample < samples; ++sample) {
     State<double> state = integrator.state();
-    EXPECT_TRUE(assembly.solve_rates(&integrator.equations(), &state).ok());
+    EXPECT_TRUE(assembly.rates().solve(&integrator.equations(), &state).ok());
     Formulas<double>& formulas = integrator.equations().formulas();
     formulas.load(state);
     for (std::size_t k = 0; k < joints.size(); ++k) {

@@ -14,7 +14,7 @@ Balance balance(const std::string& urdf, const std::string& study_text) {
   RosenbrockIntegrator integrator(*system);
   Balance result;
   result.status = integrator.start(system->parameters());
-  RosenbrockStep<double>& step = integrator.step();
+  OneStep<double>& step = integrator.step();
   const auto energy = [&] {
     step.equations().formulas().load(step.state());
     return mechanical_energy(step.equations()).total();

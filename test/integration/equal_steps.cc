@@ -3,8 +3,7 @@
 
 namespace codesign {
 
-void take_equal_steps(const CompiledSystem& system, double span, int count,
-                      RosenbrockStep<double>* step) {
+void take_equal_steps(const CompiledSystem& system, double span, int count, OneStep<double>* step) {
   Assembly assembly(system);
   State<double> initial;
   step->equations().set_design(system.parameters());

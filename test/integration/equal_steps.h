@@ -5,12 +5,11 @@
 
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 namespace codesign {
 
 /// Assembles a system and takes a span in `count` equal steps.
-void take_equal_steps(const CompiledSystem& system, double span, int count,
-                      RosenbrockStep<double>* step);
+void take_equal_steps(const CompiledSystem& system, double span, int count, OneStep<double>* step);
 
 }  // namespace codesign

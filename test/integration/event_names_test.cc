@@ -83,6 +83,30 @@ TEST(EventNames, ControllersAndObjectives) {
                "objective.integral[1].reference, \"t < 1.1\", falling, a jump");
 }
 
+TEST(EventNames, LossesHaveKinks) {
+  const Events events = events_of_run(
+      std::string(kMoving) +
+      "objective: {integral: [{signal: slide/position, reference: 1, loss: huber, scale: 0.25}, "
+      "{signal: slide/position, reference: \"${1 - t}\", loss: absolute}, {signal: "
+      "slide/position, loss: soft_l1, scale: 1}]}\n");
+  ASSERT_EQ(events.list.size(), 3u);
+  expect_event(events.list[0], 0.5,
+               "objective.integral[1].loss, \"slide/position > reference\", rising, a kink");
+  EXPECT_EQ(events.list[0].object, "");
+  const std::string huber = "objective.integral[0].loss, \"slide/position > reference";
+  expect_event(events.list[1], 0.75, huber + " - scale\", rising, a kink");
+  expect_event(events.list[2], 1.25, huber + " + scale\", rising, a kink");
+}
+
+// Rounding of a residual that is zero all the time is no kink.
+TEST(EventNames, AResidualThatStaysZeroHasNoEvents) {
+  const Events events = events_of_run(
+      std::string(kMoving) +
+      "objective: {integral: [{signal: slide/position, reference: \"${t}\", loss: absolute}, "
+      "{signal: slide/velocity, reference: 1, loss: above}]}\n");
+  EXPECT_EQ(events.count, 0);
+}
+
 // From x = 4.5 at 1 m/s the upper stop at 5 is touched at 0.5 s, and left again.
 TEST(EventNames, StopsAreTouchedAndLeft) {
   const Events events = events_of_run(

@@ -6,7 +6,7 @@
 #include "description/solver_names.h"
 #include "integration/equal_steps.h"
 #include "integration/integrator.h"
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 #include "integration/servo.h"
 #include "integration/simulation_of.h"
 #include "mechanism_codesign/gradient.h"
@@ -72,7 +72,7 @@ class ForcedStep : public ::testing::TestWithParam<const char*> {
   }
 
   const std::shared_ptr<const CompiledSystem> system = smoothly_forced();
-  RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
+  OneStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 };
 
 // Without G_t and g_t the order is lost.

@@ -89,7 +89,8 @@ double normal_force_at_rest(const std::string& content) {
   c.equations.formulas().load(c.state);
   for (int pair : c.system.contacts()) return c.equations.formulas().contact(pair).normal;
   for (const JointLoad& load : c.system.loads())
-    if (load.friction) return c.equations.formulas().friction(load.pair, load.element).normal;
+    if (load.find<BearingFriction>())
+      return c.equations.formulas().friction(load.pair, load.element).normal;
   ADD_FAILURE() << "no friction";
   return 0.0;
 }

@@ -45,17 +45,17 @@ TEST(Integrator, ASumOfSquaresIsNotNegative) {
     const auto squares = servo(solver);
     const auto integrator = make_integrator(*squares);
     ASSERT_TRUE(integrator->start(squares->parameters()).ok());
-    EXPECT_EQ(integrator->of_squares(-8e-13), 0.0) << solver;
-    EXPECT_EQ(integrator->of_squares(-8e-13, 1e-12), 1e-12 - 8e-13);
-    EXPECT_EQ(integrator->of_squares(3.0, 2.0), 5.0);
-    EXPECT_TRUE(std::isnan(integrator->of_squares(std::nan(""))));
+    EXPECT_EQ(integrator->of_losses(-8e-13), 0.0) << solver;
+    EXPECT_EQ(integrator->of_losses(-8e-13, 1e-12), 1e-12 - 8e-13);
+    EXPECT_EQ(integrator->of_losses(3.0, 2.0), 5.0);
+    EXPECT_TRUE(std::isnan(integrator->of_losses(std::nan(""))));
   }
   const auto signed_terms =
       compile(robot(mass("block", 2.0) + lift("slide", "block", 0.0)),
               "duration: 1.0\nobjective: {integral: [{signal: slide/position, weight: -1.0}]}\n");
   const auto integrator = make_integrator(*signed_terms);
   ASSERT_TRUE(integrator->start(signed_terms->parameters()).ok());
-  EXPECT_EQ(integrator->of_squares(-8e-13), -8e-13);
+  EXPECT_EQ(integrator->of_losses(-8e-13), -8e-13);
 }
 
 struct Calls {

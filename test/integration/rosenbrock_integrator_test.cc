@@ -90,7 +90,7 @@ TEST(RosenbrockIntegrator, TheTangentIsCalledOncePerAcceptedStep) {
     const double before = integrator.step().state().t;
     ASSERT_TRUE(integrator
                     .advance(1.0,
-                             [&](RosenbrockStep<double>* step) {
+                             [&](OneStep<double>* step) {
                                ++calls;
                                EXPECT_EQ(step->state().t, before) << "before the step is taken";
                                return 0.0;
@@ -107,7 +107,7 @@ TEST(RosenbrockIntegrator, ATangentMayRefuseAStep) {
   std::vector<double> sizes;
   ASSERT_TRUE(integrator
                   .advance(1.0,
-                           [&sizes](RosenbrockStep<double>* step) {
+                           [&sizes](OneStep<double>* step) {
                              sizes.push_back(step->step_size());
                              return sizes.size() < 3 ? 10.0 : 0.0;
                            })

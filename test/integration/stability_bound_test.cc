@@ -108,7 +108,7 @@ TEST(StabilityBound, LooksAtNothingThatMoves) {
   ASSERT_TRUE(integrator.start(system->parameters()).ok());
   bound.start();
   ASSERT_TRUE(integrator.advance(3.0).ok());
-  RosenbrockStep<double>& step = integrator.step();
+  OneStep<double>& step = integrator.step();
   ASSERT_TRUE(step.attempt(0.05));
   EXPECT_TRUE(bound.allows(&step));
   EXPECT_EQ(bound.shorten(7.0), 7.0);

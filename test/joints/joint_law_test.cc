@@ -18,6 +18,25 @@ TEST(JointLaw, CountsTheRowsThatPairsHave) {
   }
 }
 
+TEST(JointLaw, LeavesFreeWhatItsRowsDoNotHold) {
+  for (const RowReference<JointLaw>& joint : joint_laws()) {
+    const bool is_named = joint->of_joints || joint->of_loops;
+    if (!is_named || joint->type == JointType::kDistance) continue;
+    EXPECT_EQ(joint->rows + joint->freedoms.size(), 6) << static_cast<int>(joint->type);
+  }
+}
+
+TEST(JointLaw, JointsOfTheTreeHaveCoordinatesInEveryPosition) {
+  for (const RowReference<JointLaw>& joint : joint_laws()) {
+    if (!joint->of_joints) continue;
+    const JointFreedoms& freedoms = joint->freedoms;
+    EXPECT_TRUE(freedoms.turns <= 1 || freedoms.turns == 3) << joint->of_joints;
+    for (int k = 0; k < freedoms.size(); ++k)
+      EXPECT_EQ(freedoms.each[static_cast<std::size_t>(k)].turns, k >= freedoms.slides)
+          << joint->of_joints;
+  }
+}
+
 TEST(JointLaw, InTheirPlaneLoopsHaveAsManyRowsAsTheyHaveFreedomsLess) {
   int found = 0;
   for (const RowReference<JointLaw>& joint : joint_laws()) {
@@ -29,7 +48,7 @@ TEST(JointLaw, InTheirPlaneLoopsHaveAsManyRowsAsTheyHaveFreedomsLess) {
     EXPECT_EQ(rows.size(), kind->rows);
     EXPECT_EQ(kind->rows, joint->rows - 3) << "three rows are out of the plane";
     EXPECT_LE(kind->force_rows(), kind->rows);
-    EXPECT_EQ(has_one_coordinate(kind->type), has_one_coordinate(joint->type));
+    EXPECT_EQ(kind->has_one_coordinate(), joint->has_one_coordinate());
     EXPECT_EQ(static_cast<bool>(kind->bearing.normal_force),
               static_cast<bool>(joint->bearing.normal_force));
   }

@@ -90,6 +90,18 @@ TEST(Algorithm, LeastSquaresAreForSumsOfSquares) {
   EXPECT_EQ(weight.where.line, 17);
   EXPECT_EQ(weight.value, "-0.5");
   EXPECT_NE(weight.allowed.find("slsqp"), std::string::npos);
+  Study robust = study(name);
+  robust.integral.resize(2);
+  robust.integral[1].loss = LossKind::kAbove;
+  EXPECT_EQ(fault_of(robust).message, "") << "the square of what is above";
+  robust.integral[1].loss = LossKind::kHuber;
+  robust.integral[1].where = {"study.yaml", 18};
+  const InputFault loss = fault_of(robust);
+  EXPECT_EQ(loss.where.line, 18);
+  EXPECT_EQ(loss.element, "objective.integral[1].loss");
+  EXPECT_EQ(loss.value, "huber");
+  EXPECT_NE(loss.allowed.find("square, above or below"), std::string::npos) << loss.allowed;
+  EXPECT_NE(loss.allowed.find("slsqp"), std::string::npos) << loss.allowed;
   Study loose = study(name);
   loose.optimizer.relative_tolerance = 1.0;
   EXPECT_EQ(fault_of(loose).element, "optimizer.relative_tolerance");
@@ -111,6 +123,14 @@ TEST(Algorithm, AutoTakesWhatTheProblemAllows) {
   negative.integral[0].weight = Quantity(-0.5);
   EXPECT_EQ(first(negative), "slsqp");
   EXPECT_FALSE(is_sum_of_squares(negative));
+  Study robust = study("auto");
+  robust.terminal.resize(1);
+  robust.terminal[0].loss = LossKind::kSoftL1;
+  EXPECT_EQ(first(robust), "slsqp");
+  EXPECT_FALSE(is_sum_of_squares(robust));
+  robust.terminal[0].loss = LossKind::kBelow;
+  EXPECT_EQ(first(robust), "levenberg_marquardt");
+  EXPECT_TRUE(is_sum_of_squares(robust));
   const Study named = study("mma", true);
   EXPECT_EQ(algorithms_for(named, named.optimizer, RobustMeasure::kMean, false),
             std::vector<std::string>{"mma"})

@@ -24,7 +24,7 @@ class TangentRun {
                   integrator.initial_state(), integrator.mode());
   }
   void advance() {
-    const auto attempt = [this](RosenbrockStep<double>* step) {
+    const auto attempt = [this](OneStep<double>* step) {
       tangent.attempt(step);
       return 0.0;
     };

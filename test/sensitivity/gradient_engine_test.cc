@@ -4,6 +4,7 @@
 #include "assembly/make_system.h"
 #include "description/solver_names.h"
 #include "description/study.h"
+#include "description/tuned_parameters.h"
 #include "mechanism_codesign/gradient.h"
 #include "paths.h"
 #include "reading/study/study_reader.h"
@@ -68,6 +69,30 @@ TEST(GradientEngine, ManyLocalParametersGoBackwards) {
   EXPECT_FALSE(prefers(8));
   EXPECT_TRUE(prefers(9));
   EXPECT_TRUE(prefers(48));
+}
+
+// Trees of some size are differentiated by a program of their own, which knows the kinks, too.
+TEST(GradientEngine, LossesOfALargeTree) {
+  const GeneratedCase chain = parametric_chain(12, 6);
+  GradientCase test = from_texts("chain", chain.urdf.text, chain.study.text);
+  test.study.duration = 0.2;
+  test.study.solver.coordinates = CoordinatesKind::kJoint;
+  test.study.integral.resize(1);
+  for (const LossKind& loss : losses()) {
+    ObjectiveTerm term = test.study.integral.front();
+    term.reference = -0.1;
+    term.scale = 0.05;
+    term.loss = loss;
+    test.study.integral.push_back(term);
+  }
+  for (const char* gradient : {"direct", "adjoint"}) {
+    const auto system = test.compile("rodas4", gradient);
+    const GradientCheck check =
+        check_gradient(system, start_of(system->study()), CheckMethod::kComplexStep);
+    ASSERT_TRUE(check.status.ok()) << check.status.cause;
+    EXPECT_LT(check.largest_relative_difference, 1e-10) << gradient;
+    EXPECT_GE(check.evaluation.events.count, 3) << gradient;
+  }
 }
 
 TEST(GradientEngine, TheIntegratorsAgreeToTheToleranceAskedFor) {

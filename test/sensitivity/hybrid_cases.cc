@@ -8,17 +8,33 @@
 namespace codesign {
 namespace {
 
-const char* const kArm = R"(
+const char* const kStart = R"(
 initial_state: {shoulder: {position: "${start}"}, elbow: {velocity: 1.0}}
 parameters: {Kp: {initial: 40}, Kd: {initial: 3}, start: {initial: 1.0}, edge: {initial: 0.6},
   push: {initial: 3}, ts: {initial: 0.2}}
-objective:
+)";
+
+const char* const kTerms = R"(objective:
   integral:
     - {signal: servo/error}
     - {signal: "${elbow/position > 0.1 ? shoulder/velocity : edge}", weight: 0.3}
   terminal:
     - {signal: elbow/position, reference: "${start}"}
     - {signal: shoulder/acceleration, weight: 0.01}
+)";
+
+/// Terms with each loss, most of which pass their kinks.
+const char* const kLosses = R"(objective:
+  integral:
+    - {signal: servo/error, loss: absolute}
+    - {signal: shoulder/velocity, loss: huber, scale: "${edge}", weight: 0.3}
+    - {signal: elbow/velocity, loss: soft_l1, scale: "${0.1*push}"}
+    - {signal: elbow/position, reference: 0.05, loss: above, weight: "${push}"}
+    - {signal: shoulder/position, reference: "${edge}", loss: below, weight: 5}
+  terminal:
+    - {signal: elbow/position, reference: "${start}", loss: huber, scale: 0.1}
+    - {signal: shoulder/acceleration, weight: 0.01, loss: absolute}
+    - {signal: shoulder/velocity, loss: below}
 )";
 
 std::string servo_with(const std::string& keys, const std::string& setpoint = "0.3") {
@@ -66,16 +82,17 @@ std::shared_ptr<const CompiledSystem> HybridCase::compile(const std::string& sol
 
 std::vector<HybridCase> hybrid_cases() {
   const std::string arm = double_pendulum(pin_friction()), free_arm = double_pendulum(""),
-                    lasting = "duration: 0.6\n",
+                    usual = std::string(kStart) + kTerms, lasting = "duration: 0.6\n",
                     sampled = ", sample_time: 0.02, delay: 0.007, derivative_filter: 0.01",
                     until = "until: \"${shoulder/position < 0.8*edge or t > 0.55}\"\n";
-  return {{"switched_arm", arm, lasting + kArm + servo_with("") + kLoads},
-          {"switched_arm_without_friction", free_arm, lasting + kArm + servo_with("") + kLoads},
-          {"arm_along_a_polygon", free_arm, lasting + kArm + servo_with("", kPolygon) + kLoads},
-          {"sampled_arm", arm, lasting + kArm + servo_with(sampled)},
-          {"sampled_and_switched_arm", free_arm, lasting + kArm + servo_with(sampled) + kLoads},
-          {"arm_that_ends", free_arm, lasting + until + kArm + servo_with("") + kLoads},
-          {"sampled_arm_that_ends", arm, lasting + until + kArm + servo_with(sampled) + kLoads},
+  return {{"switched_arm", arm, lasting + usual + servo_with("") + kLoads},
+          {"switched_arm_without_friction", free_arm, lasting + usual + servo_with("") + kLoads},
+          {"arm_along_a_polygon", free_arm, lasting + usual + servo_with("", kPolygon) + kLoads},
+          {"arm_with_losses", arm, lasting + kStart + kLosses + servo_with("")},
+          {"sampled_arm", arm, lasting + usual + servo_with(sampled)},
+          {"sampled_and_switched_arm", free_arm, lasting + usual + servo_with(sampled) + kLoads},
+          {"arm_that_ends", free_arm, lasting + until + usual + servo_with("") + kLoads},
+          {"sampled_arm_that_ends", arm, lasting + until + usual + servo_with(sampled) + kLoads},
           {"parallelogram", linkage(""), kLinkage},
           {"planar_parallelogram", linkage(" codesign:out_of_plane='zero'"), kLinkage}};
 }

@@ -108,6 +108,28 @@ parameters: {tw: {initial: 0.6, lower: 0.1, upper: 1.9}}
 objective: {integral: [{signal: "${t > tw ? slide/position : 0}"}]})",
        (8.0 - 0.216) / 3.0,
        {-0.36}},
+      {"the distance from a tuned place",
+       R"(
+initial_state: {slide: {velocity: 1.0}}
+parameters: {a: {initial: 0.7, lower: 0.1, upper: 1.9}}
+objective: {integral: [{signal: slide/position, reference: "${a}", loss: absolute}]})",
+       (0.7 * 0.7 + 1.3 * 1.3) / 2.0,
+       {0.7 - 1.3}},
+      {"a soft bound at a tuned place",
+       R"(
+initial_state: {slide: {velocity: 1.0}}
+parameters: {u: {initial: 0.7, lower: 0.1, upper: 1.9}}
+objective: {integral: [{signal: slide/position, reference: "${u}", loss: above}]})",
+       1.3 * 1.3 * 1.3 / 3.0,
+       {-1.3 * 1.3}},
+      // 2 (c - c^2 + c^3/3): linear up to 1 - c and from 1 + c on.
+      {"a Huber loss of a tuned scale",
+       R"(
+initial_state: {slide: {velocity: 1.0}}
+parameters: {c: {initial: 0.3, lower: 0.1, upper: 0.9}}
+objective: {integral: [{signal: slide/position, reference: 1, loss: huber, scale: "${c}"}]})",
+       2.0 * (0.3 - 0.09 + 0.009),
+       {2.0 * 0.49}},
       // Two crossings, a pulse of 2 N that is 1 ms long, 0.4 m behind the start.
       {"a short pulse of a position",
        R"(

@@ -1,6 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// Laws that are not in the library: a friction law, a joint and a controller, each one function and
-// one row of a table.
+// Laws that are not in the library: a friction law, a joint, a controller and a loss, each one
+// function and one row of a table.
 #include <gtest/gtest.h>
 
 #include "codegen/traced.h"
@@ -35,6 +35,27 @@ const JointLaw kPointInPlane{
     nullptr, "codesign:point_in_plane",       JointType::kOther, 1, ForceRows::kAlong, false,
     false,   {point_in_plane, point_in_plane}};
 
+/// A joint of the tree: a sleeve turns about its shaft and slides along it.
+template <class T>
+void on_shaft(const PairConstants<T>&, PairRows<T>* rows) {
+  rows->keep_in_plane(0);
+  rows->keep_in_plane(1);
+  rows->keep_parallel();
+}
+constexpr JointLaw sleeve() {
+  JointLaw law;
+  law.of_joints = "sleeve";
+  law.type = JointType::kOther;
+  law.rows = 4;
+  law.force = ForceRows::kAcross;
+  law.torque_rows = law.in_forest = true;
+  law.add_rows = {on_shaft, on_shaft};
+  law.freedoms.slide(FreedomAxis::kAxis);
+  law.freedoms.turn(FreedomAxis::kAxis);
+  return law;
+}
+constexpr JointLaw kSleeve = sleeve();
+
 /// u = p tanh(d e).
 template <class T>
 T soft_p(const ControlValues<T>& x) {
@@ -43,11 +64,22 @@ T soft_p(const ControlValues<T>& x) {
 }
 const ControlLaw kSoftP{"soft_p", {soft_p, soft_p}, "pd"};
 
+/// Cauchy's loss c^2 log(1 + (r/c)^2).
+template <class T>
+T cauchy(const LossValues<T>& x) {
+  using std::log;
+  const T u = x.residual() / x.scale;
+  return x.scale * x.scale * log(T(1.0) + u * u);
+}
+const LossLaw kCauchy{"cauchy", {}, {cauchy, cauchy}, true};
+
 Laws own_laws() {
   Laws laws = standard_laws();
   laws.friction.emplace_back(kGauss);
   laws.joints.emplace_back(kPointInPlane);
+  laws.joints.emplace_back(kSleeve);
   laws.controllers.emplace_back(kSoftP);
+  laws.losses.emplace_back(kCauchy);
   return laws;
 }
 
@@ -85,10 +117,11 @@ std::string study(const std::string& solver) {
          "shoulder, gains: {p: \"${strength}\", d: "
          "\"${slope}\"}}}\n"
          "parameters: {mu_s: {tune: true}, v_t: {tune: true}, height: {tune: true}, strength: "
-         "{initial: 4.0}, slope: {initial: 3.0}}\n"
+         "{initial: 4.0}, slope: {initial: 3.0}, width: {initial: 0.2}}\n"
          "objective: {integral: [{signal: shoulder/velocity}, {signal: elbow/position, weight: "
          "2.0}, {signal: hold/output, weight: 0.1}, "
-         "{signal: shoulder/normal_force, weight: 0.001}]}\n"
+         "{signal: shoulder/normal_force, weight: 0.001}, {signal: elbow/velocity, reference: "
+         "0.3, loss: cauchy, scale: \"${width}\"}]}\n"
          "solver: {integrator: rosenbrock, method: rodas5p, relative_tolerance: 1.0e-9, "
          "absolute_tolerance: 1.0e-10" +
          solver + "}\n";
@@ -137,6 +170,63 @@ TEST(OwnLaws, TheirDerivativesFollow) {
   const GradientCheck independent = check_gradient(problem, problem.start(), CheckMethod::kRidders);
   ASSERT_TRUE(independent.status.ok()) << independent.status.cause;
   EXPECT_LT(independent.largest_relative_difference, 1e-5);
+}
+
+// A bar on an inclined shaft falls along it while it turns, at 0.3 rad to the vertical.
+constexpr double kIncline = 0.3, kSpeed = 0.4, kSpin = 2.0;
+
+std::string sleeved() {
+  return robot(bar("bar") +
+               "<joint name='sleeve' type='floating' codesign:type='sleeve'><parent "
+               "link='ground'/><child link='bar'/>"
+               "<origin rpy='0.3 0 0'/><axis xyz='0 0 1'/></joint>");
+}
+
+std::string sleeved_study(const std::string& coordinates) {
+  return "duration: 0.5\nparameters: {speed: {initial: 0.4}, spin: {initial: 2.0}}\n"
+         "initial_state: {sleeve: {translation: [0, 0, 0.1], linear_velocity: [0, 0, \"${speed}\"],"
+         " rotation: 0.7, angular_velocity: \"${spin}\"}}\n"
+         "objective: {terminal: [{signal: bar/position/z}, {signal: bar/angular_velocity/z}]}\n"
+         "solver: {coordinates: " +
+         coordinates + ", relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-11}\n";
+}
+
+TEST(OwnLaws, AJointOfTheTreeHasCoordinatesOfItsOwn) {
+  for (const char* coordinates : {"joint", "absolute"}) {
+    const Problem problem = own(sleeved(), sleeved_study(coordinates));
+    Evaluator evaluator(problem);
+    const Evaluation found = evaluator.evaluate(problem.start(), true);
+    ASSERT_TRUE(found.status.ok()) << coordinates << found.status.cause;
+    const double t = 0.5, along = 0.1 + kSpeed * t - 0.5 * 9.81 * std::cos(kIncline) * t * t,
+                 z = along * std::cos(kIncline), turning = kSpin * std::cos(kIncline);
+    EXPECT_NEAR(found.objective, z * z + turning * turning, 1e-8) << coordinates;
+    EXPECT_NEAR(found.gradient[0], 2.0 * z * t * std::cos(kIncline), 1e-8) << coordinates;
+    EXPECT_NEAR(found.gradient[1], 2.0 * turning * std::cos(kIncline), 1e-8) << coordinates;
+  }
+}
+
+/// A bar that falls, with one term of this loss.
+Problem falling(const std::string& loss) {
+  return own(pendulum(""),
+             "duration: 0.4\ninitial_state: {hinge: {position: 1.0, velocity: -1.0}}\nparameters: "
+             "{width: {initial: "
+             "0.2}}\nobjective: {integral: [{signal: " +
+                 loss + "}], terminal: [{signal: " + loss + "}]}\n");
+}
+
+TEST(OwnLaws, ALossCountsAsItsFunctionSays) {
+  const Problem own_loss = falling("hinge/velocity, loss: cauchy, scale: \"${width}\""),
+                expression = falling("\"${sqrt(width**2*log(1 + (hinge/velocity/width)**2))}\"");
+  const Evaluation a = Evaluator(own_loss).evaluate(own_loss.start(), true),
+                   b = Evaluator(expression).evaluate(expression.start(), true);
+  ASSERT_TRUE(a.status.ok()) << a.status.cause;
+  ASSERT_TRUE(b.status.ok()) << b.status.cause;
+  EXPECT_NEAR(a.objective, b.objective, 1e-5 * b.objective)
+      << "as an expression whose square is it";
+  EXPECT_NEAR(a.gradient[0], b.gradient[0], 1e-4 * std::abs(b.gradient[0]));
+  EXPECT_EQ(Evaluator(own_loss).evaluate(own_loss.start(), Derivatives::kGaussNewton).status.code,
+            StatusCode::kInvalidDesign)
+      << "it is no square";
 }
 
 TEST(OwnLaws, AFunctionOfTheSpeedAlsoSlipsInSeveralDirections) {

@@ -75,7 +75,7 @@ class Replay {
   }
 
   RosenbrockIntegrator integrator_;
-  RosenbrockStep<Complex> step_;
+  OneStep<Complex> step_;
   std::vector<Complex> residuals_;
 };
 
@@ -207,6 +207,31 @@ TEST(ResidualRows, ANegativeWeightIsNoSumOfSquares) {
       << evaluation.status.cause;
   EXPECT_TRUE(evaluator.evaluate(Eigen::Vector2d(3.0, -0.5), true).status.ok())
       << "a gradient has nothing against it";
+}
+
+TEST(ResidualRows, ASoftBoundHasThoseOfItsSide) {
+  const GradientCase test = block_on_rail(
+      "{signal: slide/position, reference: 0.75, loss: above}, {signal: "
+      "slide/velocity, reference: 1.5, loss: below, weight: 2}",
+      "{signal: slide/velocity, reference: 4.0, loss: above}");
+  const Evaluation evaluation = evaluator_of(test.compile("rodas5p", "auto"))
+                                    .evaluate(Eigen::Vector2d(3.0, 0.5), Derivatives::kGaussNewton);
+  ASSERT_TRUE(evaluation.status.ok()) << evaluation.status.cause;
+  // x = 3 t^2 / 4 passes 0.75 at 1 s, and so does v = 3 t / 2 pass 1.5; the end is below 4.
+  const double by_force = (32.0 - 1.0) / 5.0 / 16.0 + 2.0 / 3.0 / 4.0;
+  EXPECT_NEAR(evaluation.jacobian_root(0, 0), std::sqrt(by_force), 1e-7);
+  EXPECT_EQ(evaluation.events.count, 2);
+}
+
+TEST(ResidualRows, ALossThatIsNoSquareIsNoSumOfSquares) {
+  const GradientCase test =
+      block_on_rail("{signal: slide/velocity}", "{signal: slide/position, loss: absolute}");
+  Evaluator evaluator = evaluator_of(test.compile("rodas5p", "auto"));
+  const Evaluation evaluation =
+      evaluator.evaluate(Eigen::Vector2d(3.0, 0.5), Derivatives::kGaussNewton);
+  EXPECT_EQ(evaluation.status.code, StatusCode::kInvalidDesign);
+  EXPECT_NE(evaluation.status.cause.find("objective.terminal[0] is absolute"), std::string::npos)
+      << evaluation.status.cause;
 }
 
 TEST(ResidualRows, AStudyThatAsksForTheAdjointHasThem) {

@@ -49,7 +49,7 @@ struct ServoSteps {
   const std::shared_ptr<const CompiledSystem> system = servo("{}");
   const std::vector<double> parameters = system->parameters();
   const RosenbrockTableau& tableau;
-  RosenbrockStep<double> step;
+  OneStep<double> step;
   TangentStep<8> tangent;
   AdjointStep adjoint;
   Assembly assembly;

@@ -62,11 +62,12 @@ TEST(CompiledSystem, OnlyJointsWithALoadAreListed) {
   const CompiledSystem system =
       compile(double_pendulum(pin_friction()), let_go("{}", "elbow/velocity"));
   ASSERT_EQ(system.loads().size(), 2U);
-  EXPECT_TRUE(system.loads()[0].friction);
-  EXPECT_FALSE(system.loads()[0].passive);
+  EXPECT_TRUE(system.loads()[0].find<BearingFriction>());
+  EXPECT_FALSE(system.loads()[0].find<PassiveLoad>());
   const CompiledSystem driven = controlled("{p: 1.0}", "hinge/position", kSwing);
   ASSERT_EQ(driven.loads().size(), 1U);
-  EXPECT_EQ(driven.loads()[0].controllers, std::vector<int>{0});
+  ASSERT_TRUE(driven.loads()[0].find<ControllerEffort>());
+  EXPECT_EQ(driven.loads()[0].find<ControllerEffort>()->controllers, std::vector<int>{0});
 }
 
 TEST(CompiledSystem, ThePatternHoldsTheIntegrandBelowTheEquations) {

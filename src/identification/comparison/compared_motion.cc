@@ -146,8 +146,8 @@ std::vector<ComparedJoint> compared_joints(const RobotDescription& robot,
         std::find(names.joints.begin(), names.joints.end(), joint.name) - names.joints.begin();
     const Eigen::Vector3d axis(joint.axis[0].at(parameters), joint.axis[1].at(parameters),
                                joint.axis[2].at(parameters));
-    joints.push_back({to_index(place), to_index(joint.child), axis.normalized(),
-                      joint.type != JointType::kPrismatic});
+    joints.push_back(
+        {to_index(place), to_index(joint.child), axis.normalized(), !joint.is_slide()});
   }
   return joints;
 }

@@ -84,13 +84,12 @@ void DrivenMotion::note_turns(int body) {
     return;
   }
   const auto pair = to_index(layout.forest.pair_above[to_index(body)]);
-  if (layout.forest.is_plane[pair]) {
-    turns_[c + 2] = 1.0;
-    return;
-  }
   int column = c;
-  for (const ChainElement& element : system_.topology().pairs[pair].chain)
-    turns_[column++] = is_turn(system_.robot().joints[to_index(element.joint)].type) ? 1.0 : 0.0;
+  for (const ChainElement& element : system_.topology().pairs[pair].chain) {
+    const JointFreedoms& freedoms = system_.robot().joints[to_index(element.joint)].freedoms();
+    for (int k = 0; k < freedoms.size(); ++k)
+      turns_[column++] = freedoms.each[to_index(k)].turns ? 1.0 : 0.0;
+  }
 }
 
 void DrivenMotion::set_design(const std::vector<double>& parameters) {

@@ -28,7 +28,7 @@ int find_joint(const RobotDescription& robot, const MeasuredJoint& measured) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < robot.joints.size(); ++k) {
     const JointDescription& joint = robot.joints[k];
-    if (joint.is_loop || !has_one_coordinate(joint.type)) continue;
+    if (joint.is_loop || !joint.has_one_coordinate()) continue;
     if (joint.name == measured.name) return static_cast<int>(k);
     names.push_back(joint.name);
   }
@@ -145,7 +145,7 @@ Study study_near(const StartWorkspace& usual, const CompiledSystem& of,
   study.initial_state.clear();
   for (std::size_t joint = 0; joint < of.robot().joints.size(); ++joint) {
     const JointDescription& description = of.robot().joints[joint];
-    if (description.is_loop || !has_one_coordinate(description.type)) continue;
+    if (description.is_loop || !description.has_one_coordinate()) continue;
     InitialJointState& initial = study.initial_state.emplace_back();
     initial.joint = description.name;
     const auto k = static_cast<int>(
@@ -235,7 +235,7 @@ class DependentCoordinates {
     if (description.is_motor) return;  // gears are rigid where the motion is given
     if (std::find(joints_.begin(), joints_.end(), joint) != joints_.end()) return;
     const int first = tree.offset[to_index(joint)];
-    for (int c = first; c < first + coordinates_of(description.type); ++c)
+    for (int c = first; c < first + description.freedoms().size(); ++c)
       if (!depends(c))
         throw InputError(
             {description.where, description.element(),

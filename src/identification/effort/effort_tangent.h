@@ -6,7 +6,7 @@
 
 #include "identification/effort/driven_motion.h"
 #include "sensitivity/lane_directions.h"
-#include "sensitivity/tangent_step.h"
+#include "sensitivity/tangent_equations.h"
 
 namespace codesign {
 

@@ -24,7 +24,7 @@ std::string unit_of(const RobotDescription* robot, const std::string& joint, con
                     const char* sliding) {
   if (!robot) return "";
   for (const JointDescription& each : robot->joints)
-    if (each.name == joint) return each.type == JointType::kPrismatic ? sliding : turning;
+    if (each.name == joint) return each.is_slide() ? sliding : turning;
   return "";
 }
 

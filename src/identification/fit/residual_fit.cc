@@ -182,6 +182,7 @@ void search(const FitProblem& problem, ResidualSource* source, const FitObserver
 struct ScreenedPoint {
   Eigen::VectorXd x;
   double spread = 0.0;
+  bool is_start = false;  ///< of the study
 };
 
 std::vector<int> bounded_columns(const FitProblem& problem) {
@@ -206,23 +207,32 @@ std::vector<Eigen::VectorXd> points_of(const FitProblem& problem,
   return points;
 }
 
+/// The study's start, evaluated.
+struct StudyStart {
+  Status status;
+  Eigen::MatrixXd residuals;
+};
+
 /// Chooses the starts, best first. @param interruption receives the status of a cancel.
 std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOptions& options,
-                                  ResidualSource* source, FitSearches* searches,
-                                  Status* interruption) {
+                                  const StudyStart& start, ResidualSource* source,
+                                  FitSearches* searches, Status* interruption) {
   std::vector<ScreenedPoint> usable;
-  Eigen::MatrixXd residuals;
+  Eigen::MatrixXd computed;
+  bool is_start = true;  // the first point is the study's start
   for (const Eigen::VectorXd& x : points_of(problem, options)) {
-    const Status status = source->evaluate(x, &residuals, nullptr);
+    const Status status = is_start ? start.status : source->evaluate(x, &computed, nullptr);
+    const Eigen::MatrixXd& residuals = is_start ? start.residuals : computed;
     if (status.code == StatusCode::kCancelled) {
       *interruption = status;
       break;
     }
     ++searches->screened;
     if (status.ok())
-      usable.push_back({x, mean_spread(residuals, problem.loss)});
+      usable.push_back({x, mean_spread(residuals, problem.loss), is_start});
     else
       ++searches->unusable;
+    is_start = false;
   }
   std::stable_sort(
       usable.begin(), usable.end(),
@@ -258,7 +268,7 @@ StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const L
 Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
   // Standard deviation over median magnitude of a normal variable.
   constexpr double kNormalMedian = 1.4826;
-  if (loss.kind == LossKind::kNone) return rms_of(residuals);
+  if (loss.kind == LossKind::kSquare) return rms_of(residuals);
   Eigen::VectorXd spreads(residuals.cols());
   for (Eigen::Index k = 0; k < spreads.size(); ++k)
     spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
@@ -293,25 +303,28 @@ ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& s
 }
 
 ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
-                          const FitObserver& observer) {
+                          const FitObserver& observer, const Eigen::MatrixXd* at_start) {
   ResidualFit fit;
   fit.x = problem.start.cwiseMax(problem.lower).cwiseMin(problem.upper);
-  fit.status = source->evaluate(fit.x, &fit.start_residuals, nullptr);
+  if (at_start)
+    fit.start_residuals = *at_start;
+  else
+    fit.status = source->evaluate(fit.x, &fit.start_residuals, nullptr);
   if (!fit.status.ok()) {
     fit.termination = fit.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
     return fit;
   }
-  const Eigen::VectorXd at_start = rms_of(fit.start_residuals);
-  fit.spreads = spreads_above(fit.start_residuals, problem.loss, at_start);
+  const Eigen::VectorXd rms_at_start = rms_of(fit.start_residuals);
+  fit.spreads = spreads_above(fit.start_residuals, problem.loss, rms_at_start);
   for (int pass = 0; pass < kMostPasses; ++pass) {
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
-    const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, at_start);
+    const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, rms_at_start);
     const bool are_spreads_settled =
         ((spreads - fit.spreads).array().abs() <=
          spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
             .all();
-    const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kNone;
+    const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kSquare;
     fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value +
                surprises(problem, fit.x).squaredNorm();
     fit.spreads = spreads;
@@ -328,19 +341,22 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
                             ResidualSource* source, const FitObserver& observer,
                             FitSearches* searches) {
   if (options.starts == 0) return fit_residuals(problem, source, observer);
-  Eigen::MatrixXd at_start;
-  const Status start_status = source->evaluate(problem.start, &at_start, nullptr);
+  StudyStart start;
+  start.status = source->evaluate(problem.start, &start.residuals, nullptr);
   ResidualFit best;
   Status interruption;
   int evaluations = 0, failed = 0;
   std::vector<std::vector<double>> ends;
-  for (const ScreenedPoint& point : screen(problem, options, source, searches, &interruption)) {
+  for (const ScreenedPoint& point :
+       screen(problem, options, start, source, searches, &interruption)) {
     FitProblem from = problem;
     from.start = point.x;
-    ResidualFit fit = fit_residuals(from, source, [&](FitTrial trial) {
+    const auto numbered = [&](FitTrial trial) {
       trial.evaluation += evaluations;
       return !observer || observer(trial);
-    });
+    };
+    ResidualFit fit =
+        fit_residuals(from, source, numbered, point.is_start ? &start.residuals : nullptr);
     evaluations += fit.evaluations;
     failed += fit.failed_evaluations;
     searches->starts.push_back(describe(point, fit, problem.loss));
@@ -355,14 +371,14 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
   }
   searches->optima = cluster_optima(ends, options.cluster, &searches->starts);
   if (searches->starts.empty()) {
-    best.status = interruption.ok() ? start_status : interruption;
+    best.status = interruption.ok() ? start.status : interruption;
     best.termination = interruption.ok() ? "start_failed" : "cancelled";
   } else if (!interruption.ok()) {
     best.status = interruption;
     best.termination = "cancelled";
   }
   // The start residuals in the result are the residuals at the study's start.
-  if (start_status.ok() && best.residuals.size() > 0) best.start_residuals = at_start;
+  if (start.status.ok() && best.residuals.size() > 0) best.start_residuals = start.residuals;
   best.evaluations = evaluations + searches->screened;
   best.failed_evaluations = failed + searches->unusable;
   return best;

@@ -78,8 +78,10 @@ struct ResidualFit {
 /// Minimizes the sum over all residuals of rho(r_k / s_k) by Levenberg-Marquardt within bounds,
 /// doc/theory.md (39). With several outputs or a robust loss, the spreads s_k come from the fit
 /// itself: the fit is repeated until they no longer change, at most ten times.
+/// @param at_start the residuals at the start, if they are known; null: they are computed.
 ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
-                          const FitObserver& observer = {});
+                          const FitObserver& observer = {},
+                          const Eigen::MatrixXd* at_start = nullptr);
 
 /// fit_residuals() with known spreads, in one search.
 ResidualFit fit_with_spreads(const FitProblem& problem, const Eigen::VectorXd& spreads,

@@ -15,7 +15,7 @@ SegmentRun::SegmentRun(const SegmentSystem& of, const SegmentBegin& first)
   state_.resize(system_.layout());
   groups_.for_each([](auto* group) { group->step.keep_previous(true); });
   const double tolerance = system_.whole_study().solver.sensitivity_tolerance;
-  stages_ = [this, tolerance](RosenbrockStep<double>* step) {
+  stages_ = [this, tolerance](OneStep<double>* step) {
     double error = 0.0;
     for_each_group([&](auto* group) {
       group->step.attempt(step);
@@ -92,7 +92,7 @@ Status SegmentRun::sample(double time, Eigen::Index row) {
   double psi = 0.0;
   integrator_.interpolate(time, &state_, &psi);
   if (reads_rates_)
-    if (Status status = integrator_.assembly().solve_rates(&integrator_.equations(), &state_);
+    if (Status status = integrator_.assembly().rates().solve(&integrator_.equations(), &state_);
         !status.ok())
       return status;
   for (Eigen::Index output = 0; output < values_.cols(); ++output)

@@ -4,9 +4,12 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "description/excitation.h"
 #include "description/identification.h"
+#include "description/loss_law.h"
 #include "description/study.h"
 
 namespace codesign {
@@ -50,6 +53,10 @@ constexpr OptionRange kRelativeTolerance = tolerance_from(1e-13),
 constexpr std::array<const char*, 12> kAlgorithmNames{
     "auto",  "lbfgs", "var1",   "var2",   "tnewton",      "mma",
     "ccsaq", "slsqp", "cobyla", "bobyqa", "auglag_lbfgs", "levenberg_marquardt"};
+
+/// The losses of an identification by their names in studies: those with a weight, where a sum of
+/// squares is named `none`.
+std::vector<std::pair<std::string, LossKind>> fit_losses();
 
 // The keys of each block of options: visit(key, range or names of the choices, option) for each, in
 // the order of messages. Defaults are in the structures. From these rows come the reader, the list
@@ -129,7 +136,7 @@ void visit_options(const Visit& visit, FilterOptions* of) {
 
 template <class Visit>
 void visit_options(const Visit& visit, LossOptions* of) {
-  visit("type", kLossNames, of->kind);
+  visit("type", of->kind);
   visit("scale",
         OptionRange{0.0, kUnbounded, false, true, kPositive.fault,
                     "more than 0, in units of the residuals' spread"},

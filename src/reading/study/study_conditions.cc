@@ -27,10 +27,6 @@ const Names& pose_keys() {
   return kKeys;
 }
 
-bool has_pose(const JointDescription& joint) {
-  return joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
-}
-
 /// Whether friction of a joint has states that can hold it. Behind an elastic gear the flanks do
 /// not: its spring starts undeflected and carries nothing.
 bool can_stick(const JointDescription& joint) {
@@ -44,13 +40,13 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
                                        const YamlValue& value) {
   Names known;
   for (const JointDescription& joint : robot.joints) {
-    const bool free = !joint.is_loop && has_pose(joint);
-    if (joint.name == name && (free || has_one_coordinate(joint.type) || can_stick(joint)))
+    const bool free = joint.has_pose();
+    if (joint.name == name && (free || joint.has_one_coordinate() || can_stick(joint)))
       return joint;
     if (joint.name == name)
       value.fail("this joint has neither a single coordinate nor a pose",
                  "a revolute, continuous, prismatic, planar or floating joint");
-    if (free || has_one_coordinate(joint.type)) known.push_back(joint.name);
+    if (free || joint.has_one_coordinate()) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
 }
@@ -68,36 +64,43 @@ void read_scalar_start(const YamlValue& value, const ParameterTable& table,
   if (guess) state->guess = guess->number();
 }
 
-/// Checks that a vector lies in the plane of a planar joint, at the parameters' start values.
-void check_in_plane(const YamlValue& value, const QuantityVector& vector,
-                    const JointDescription& joint) {
+/// Checks that a joint can slide along a vector, at the parameters' start values: in the plane
+/// normal to its axis, or along the axis.
+void check_slide(const YamlValue& value, const QuantityVector& vector,
+                 const JointDescription& joint) {
   const auto nominal = [](const QuantityVector& q) {
     return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal());
   };
-  const Vector3<double> x = nominal(vector), normal = nominal(joint.axis).normalized();
-  if (std::abs(x.dot(normal)) > 1e-9 * (1.0 + x.norm()))
+  const Vector3<double> x = nominal(vector), axis = nominal(joint.axis).normalized();
+  const double along = x.dot(axis), across = (x - along * axis).norm(),
+               allowed = 1e-9 * (1.0 + x.norm());
+  if (joint.freedoms().slides == 2 && std::abs(along) > allowed)
     value.fail(
         "the vector does not lie in the plane of the joint; its component along the normal is " +
-            to_decimal(x.dot(normal)),
+            to_decimal(along),
         "a vector normal to the joint's <axis>");
+  if (joint.freedoms().slides == 1 && across > allowed)
+    value.fail("the vector does not lie along the axis of the joint; its component across it is " +
+                   to_decimal(across),
+               "a vector along the joint's <axis>");
 }
 
 void read_pose_start(const YamlValue& value, const JointDescription& joint,
                      const ParameterTable& table, InitialJointState* state) {
-  const bool planar = joint.type == JointType::kPlanar;
+  const bool turns_once = joint.freedoms().turns == 1;
   const auto slide = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
     *result = read_vector(*found, table);
-    if (planar) check_in_plane(*found, **result, joint);
+    check_slide(*found, **result, joint);
   };
   const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
     const auto found = value.find(key);
     if (!found) return;
-    if (planar && found->is_list())
+    if (turns_once && found->is_list())
       found->fail("a planar joint turns only about its normal", "one number");
-    *result = planar ? QuantityVector{0.0, 0.0, read_quantity(*found, table)}
-                     : read_vector(*found, table);
+    *result = turns_once ? QuantityVector{0.0, 0.0, read_quantity(*found, table)}
+                         : read_vector(*found, table);
   };
   slide("translation", &state->translation);
   slide("linear_velocity", &state->linear_velocity);
@@ -127,7 +130,7 @@ void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJo
                 "either stuck or a velocity");
   state->stuck = true;
   if (joint.is_loop) return;
-  if (has_pose(joint))
+  if (joint.has_pose())
     state->linear_velocity.emplace(), state->angular_velocity.emplace();
   else
     state->velocity = Quantity(0.0);
@@ -136,7 +139,7 @@ void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJo
 InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
                                    const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
-  const bool pose = has_pose(joint) && !joint.is_loop, scalar = has_one_coordinate(joint.type);
+  const bool pose = joint.has_pose(), scalar = joint.has_one_coordinate();
   Names keys = pose ? pose_keys() : scalar ? scalar_keys() : Names();
   const Names& others = pose ? scalar_keys() : pose_keys();
   keys.emplace_back("stuck");

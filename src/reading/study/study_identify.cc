@@ -60,7 +60,7 @@ bool has_fitted(const JointCalibration& joint) {
 LossOptions read_loss(const YamlValue& loss) {
   LossOptions options;
   read_options(loss, &options, {"type"});
-  if (const auto scale = loss.find("scale"); scale && options.kind == LossKind::kNone)
+  if (const auto scale = loss.find("scale"); scale && options.kind == LossKind::kSquare)
     scale->fail("without a loss there is nothing to scale", "type: huber or soft_l1");
   return options;
 }

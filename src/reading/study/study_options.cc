@@ -72,6 +72,25 @@ void OptionReader::operator()(const std::string& key, const OptionRange& range,
   option = static_cast<std::uint32_t>(number);
 }
 
+std::vector<std::pair<std::string, LossKind>> fit_losses() {
+  std::vector<std::pair<std::string, LossKind>> list;
+  for (const LossKind& kind : losses())
+    if (kind->weight != nullptr)
+      list.emplace_back(kind == LossKind::kSquare ? "none" : kind->name, kind);
+  return list;
+}
+
+void OptionReader::operator()(const std::string& key, LossKind& option) const {
+  const auto value = block.find(key);
+  if (!value) return;
+  const std::vector<std::pair<std::string, LossKind>> known = fit_losses();
+  std::vector<std::string> names;
+  for (const auto& [name, kind] : known) names.push_back(name);
+  const std::string chosen = value->choice(key, names);
+  for (const auto& [name, kind] : known)
+    if (name == chosen) option = kind;
+}
+
 SolverOptions read_solver_options(const YamlValue& solver) {
   SolverOptions options;
   read_options(solver, &options);

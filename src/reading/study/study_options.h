@@ -26,6 +26,7 @@ struct OptionReader {
                   std::optional<double>& option) const;
   void operator()(const std::string& key, const OptionRange& range, int& option) const;
   void operator()(const std::string& key, const OptionRange& range, std::uint32_t& option) const;
+  void operator()(const std::string& key, LossKind& option) const;
   /// @param names of the choices: the option itself, or an enumeration in this order.
   template <class Option, std::size_t N>
   void operator()(const std::string& key, const std::array<const char*, N>& names,

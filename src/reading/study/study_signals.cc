@@ -28,16 +28,46 @@ SignalDescription read_signal_of(const YamlValue& value, const RobotDescription&
   return signal;
 }
 
+/// The names of the losses for which a property holds: "huber or soft_l1".
+template <class Property>
+std::string losses_with(const Laws& laws, const Property& holds) {
+  std::string list;
+  for (const LossKind& kind : laws.losses)
+    if (holds(*kind)) list += (list.empty() ? "" : " or ") + std::string(kind->name);
+  return list;
+}
+
+/// The loss of a term, with its scale.
+void read_loss(const YamlValue& value, const Laws& laws, const ParameterTable& table,
+               ObjectiveTerm* term) {
+  if (const auto loss = value.find("loss")) {
+    const std::string name = loss->choice("loss", names_of(laws.losses));
+    for (const LossKind& kind : laws.losses)
+      if (name == kind->name) term->loss = kind;
+  }
+  if (!term->loss->has_scale) {
+    if (const auto scale = value.find("scale"))
+      scale->fail("this loss has no scale",
+                  "loss: " + losses_with(laws, [](const LossLaw& law) { return law.has_scale; }));
+    return;
+  }
+  const YamlValue scale = value.at("scale");
+  term->scale = read_quantity(scale, table);
+  if (!(term->scale.nominal() > 0.0))
+    scale.fail("the scale of a loss must be positive", "more than 0, in the unit of the signal");
+}
+
 ObjectiveTerm read_term(const YamlValue& value, const RobotDescription& robot,
                         const ParameterTable& table, const TrajectoryLoader& loader,
                         const Study& study, bool at_end) {
-  value.require_keys({"signal"}, {"reference", "weight"});
+  value.require_keys({"signal"}, {"reference", "weight", "loss", "scale"});
   ObjectiveTerm term;
   term.where = value.where();
   term.signal = read_signal_of(value.at("signal"), robot, table, study, at_end);
   if (const auto reference = value.find("reference"))
     term.reference = read_target(*reference, table, loader, study);
   if (const auto weight = value.find("weight")) term.weight = read_quantity(*weight, table);
+  read_loss(value, robot.laws, table, &term);
   return term;
 }
 

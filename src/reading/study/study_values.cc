@@ -156,7 +156,7 @@ const JointDescription& scalar_joint(const std::string& name, const RobotDescrip
                                      const YamlValue& at) {
   std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {
-    const bool scalar = has_one_coordinate(joint.type);
+    const bool scalar = joint.has_one_coordinate();
     if (joint.name == name && !scalar)
       at.fail("this joint has no single coordinate", "a revolute, continuous or prismatic joint");
     if (joint.name == name) return joint;

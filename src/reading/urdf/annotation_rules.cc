@@ -100,7 +100,7 @@ std::vector<ElementRule> make_rules() {
                    false,
                    {},
                    {},
-                   {},
+                   {"type"},
                    {"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
   rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
   rules.push_back(

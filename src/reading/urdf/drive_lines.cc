@@ -16,7 +16,7 @@ constexpr double kEffort = 10.0;            // of a joint without a limit [N m o
 
 double ratio_of(const DriveFacts& drive) {
   if (drive.gear_ratio != 0.0) return drive.gear_ratio;
-  return is_turn(drive.joint.type) ? kUsualRatio : kScrewRatio;
+  return drive.joint.is_turn() ? kUsualRatio : kScrewRatio;
 }
 
 /// @param inertia of the rotor [kg m^2] @param more attributes
@@ -34,7 +34,7 @@ double largest_effort(const JointDescription& joint) {
 std::string of_largest_effort(const JointDescription& joint) {
   const bool bounded = joint.limit && joint.limit->bounds_effort();
   return std::string(bounded ? "of its limit, " : "without a limit, for ") +
-         readable(largest_effort(joint), 4) + (is_turn(joint.type) ? " N m" : " N");
+         readable(largest_effort(joint), 4) + (joint.is_turn() ? " N m" : " N");
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ void write_armature(const DriveFacts& drive, double armature, OverlayLines* line
 }
 
 void write_gear(const DriveFacts& drive, OverlayLines* lines) {
-  const bool turns = is_turn(drive.joint.type);
+  const bool turns = drive.joint.is_turn();
   const double ratio = ratio_of(drive);
   const double inertia =
       turns ? kReflectedInertia * largest_effort(drive.joint) / (ratio * ratio) : kScrewRotor;

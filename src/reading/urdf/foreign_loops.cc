@@ -124,8 +124,7 @@ class Finder {
   /// Whether the joint follows another one already, or is coupled.
   bool follows(const std::string& follower) const {
     for (const JointDescription& joint : robot_.joints)
-      if (joint.name == follower)
-        return joint.mimic || joint.type == JointType::kFixed || is_coupled(joint.child);
+      if (joint.name == follower) return joint.mimic || joint.is_fixed() || is_coupled(joint.child);
     return false;
   }
   bool is_coupled(int link) const {

@@ -230,9 +230,9 @@ bool locks_itself(const GearDescription& gear) {
 
 }  // namespace
 
-ActuatorDescription read_actuator(const XmlElement& element, JointType type,
+ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context) {
-  if (!has_one_coordinate(type))
+  if (!law.has_one_coordinate())
     element.fail("a joint of this type has no single coordinate for a rotor", "",
                  "revolute, continuous or prismatic");
   ActuatorDescription actuator;

@@ -50,10 +50,10 @@ Quantity read_magnitude_or_zero(const XmlElement& element, const std::string& at
   return element.has(attribute) ? read_magnitude(element, attribute, context) : Quantity(0.0);
 }
 
-void check_bounds(const XmlElement& element, JointType type, const ReadContext& context,
+void check_bounds(const XmlElement& element, const JointLaw& law, const ReadContext& context,
                   LimitDescription* limit) {
   if (!limit->bounds_position()) return;
-  if (type == JointType::kContinuous) {
+  if (!law.needs_limit) {
     context.warnings->push_back(element.warning(
         "limit_ignored", "lower and upper are ignored, since a continuous joint turns without end",
         element.find("lower").value_or("0") + " ... " + element.find("upper").value_or("0"),
@@ -72,7 +72,8 @@ void check_bounds(const XmlElement& element, JointType type, const ReadContext& 
   limit->lower = limit->upper = 0.0;
 }
 
-LimitDescription read_limit(const XmlElement& element, JointType type, const ReadContext& context) {
+LimitDescription read_limit(const XmlElement& element, const JointLaw& law,
+                            const ReadContext& context) {
   LimitDescription limit;
   limit.lower = read_quantity_or(0.0, element, "lower", Range::kAny, context.table);
   limit.upper = read_quantity_or(0.0, element, "upper", Range::kAny, context.table);
@@ -80,7 +81,7 @@ LimitDescription read_limit(const XmlElement& element, JointType type, const Rea
   const char* const no_limit = "means, as in SDF, that there is no limit";
   limit.effort = read_magnitude(element, "effort", context, no_limit);
   limit.velocity = read_magnitude(element, "velocity", context, no_limit);
-  check_bounds(element, type, context, &limit);
+  check_bounds(element, law, context, &limit);
   return limit;
 }
 
@@ -98,9 +99,9 @@ MimicDescription read_mimic(const XmlElement& element, const ParameterTable& tab
 /// bristles they are Stribeck velocities, which are ten times as large.
 void suit_transitions(const XmlElement& element, JointDescription* joint) {
   const bool bounded = joint->limit && joint->limit->bounds_velocity();
-  const double largest = bounded                ? joint->limit->velocity.nominal()
-                         : is_turn(joint->type) ? 1.0
-                                                : 0.1;  // [rad/s, m/s]
+  const double largest = bounded            ? joint->limit->velocity.nominal()
+                         : joint->is_turn() ? 1.0
+                                            : 0.1;  // [rad/s, m/s]
   const auto suit = [&](const char* tag, FrictionDescription* friction) {
     const std::optional<XmlElement> child = element.child(tag);
     if (!child || child->has("transition_velocity")) return;
@@ -116,21 +117,20 @@ void suit_transitions(const XmlElement& element, JointDescription* joint) {
 void read_limit_of_joint(const XmlElement& element, const ReadContext& context,
                          JointDescription* joint) {
   const std::optional<XmlElement> limit = element.child("limit");
-  const bool bounded = joint->type == JointType::kRevolute || joint->type == JointType::kPrismatic;
-  if (bounded && !limit)
+  if (joint->law().needs_limit && !limit)
     element.fail(
         "a joint of this type needs a <limit>", element.text("type"),
         "<limit lower=\"...\" upper=\"...\" effort=\"...\" velocity=\"...\"/>, or of a hinge "
         "without stops type=\"continuous\"");
-  if (limit && has_one_coordinate(joint->type))
-    joint->limit = read_limit(*limit, joint->type, context);
+  if (limit && joint->has_one_coordinate())
+    joint->limit = read_limit(*limit, joint->law(), context);
 }
 
 void read_mimic_of_joint(const XmlElement& element, const ReadContext& context,
                          JointDescription* joint) {
   const std::optional<XmlElement> mimic = element.child("mimic");
   if (!mimic) return;
-  if (has_one_coordinate(joint->type)) {
+  if (joint->has_one_coordinate()) {
     joint->mimic = read_mimic(*mimic, context.table);
     return;
   }
@@ -151,8 +151,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
                   "damping=\"...\", friction=\"...\", or no <dynamics>");
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
-  const bool several = joint->type == JointType::kPlanar || joint->type == JointType::kFloating;
-  if (!several || joint->is_loop || dynamics.in_overlay()) return;
+  if (!joint->has_pose() || dynamics.in_overlay()) return;
   if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
     context.warnings->push_back(dynamics.warning(
         "dynamics_ignored",
@@ -161,9 +160,15 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
   joint->damping = joint->dry_friction = 0.0;
 }
 
-/// Reads the attribute `type` of a joint, or of a loop if `joint` is one. @throws InputError
+/// Reads the attribute `type` of a joint, or of a loop if `joint` is one; of a joint that URDF does
+/// not have, `codesign:type`. @throws InputError
 void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint) {
-  const std::string name = element.text("type");
+  const bool is_own = !joint->is_loop && element.has("codesign:type");
+  const char* const attribute = is_own ? "codesign:type" : "type";
+  if (is_own && element.text("type") != "floating")
+    element.fail_at("type", "a joint with codesign:type must be floating for other readers",
+                    "type=\"floating\"");
+  const std::string name = element.text(attribute);
   std::vector<std::string> known;
   for (const RowReference<JointLaw>& law : laws.joints) {
     const char* const spelling = joint->is_loop ? law->of_loops : law->of_joints;
@@ -174,7 +179,7 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
     if (law->type == JointType::kOther) joint->own_kind = pair_of(*law);
     return;
   }
-  throw unknown_name(element.where("type"), element.label(),
+  throw unknown_name(element.where(attribute), element.label(),
                      joint->is_loop ? "loop type" : "joint type", name, known);
 }
 
@@ -184,24 +189,24 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
 void read_joint_parts(const XmlElement& element, const ReadContext& context,
                       JointDescription* joint) {
   const ParameterTable& table = context.table;
-  const bool welded = joint->type == JointType::kFixed &&
-                      !joint->is_loop;  // other readers of URDF ignore the rest of a fixed joint
+  // Other readers of URDF ignore the rest of a fixed joint.
+  const bool welded = joint->is_fixed() && !joint->is_loop;
   const std::optional<XmlElement> axis = element.child("axis"),
                                   dynamics = element.child("dynamics");
-  if (axis && !welded && (joint->type != JointType::kFloating || joint->is_loop))
+  if (axis && !welded && (joint->freedoms().turns < 3 || joint->is_loop))
     joint->axis = read_axis(*axis, table);
   if (dynamics && !welded) read_dynamics(*dynamics, context, joint);
   const std::optional<XmlElement> friction = element.child("codesign:friction"),
                                   spring = element.child("codesign:torsion_spring");
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
-  if (actuator) joint->actuator = read_actuator(*actuator, joint->type, context);
+  if (actuator) joint->actuator = read_actuator(*actuator, joint->law(), context);
   if (joint->is_loop && joint->has_elastic_gear())
     actuator->fail_at("stiffness",
                       "an elastic gear needs a joint of the tree, which gives its motor a start",
                       "no stiffness; or a tree with this joint, and a <loop> elsewhere");
   if (!spring) return;
-  if (!has_one_coordinate(joint->type))
+  if (!joint->has_one_coordinate())
     spring->fail("a joint of this type has no single coordinate for a spring", "",
                  "revolute, continuous or prismatic");
   joint->spring = TorsionSpringDescription{

@@ -33,8 +33,8 @@ struct ReadContext {
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
                                   const ReadContext& context);
 
-/// Reads one `<codesign:actuator>` of a joint of the type. @throws InputError
-ActuatorDescription read_actuator(const XmlElement& element, JointType type,
+/// Reads one `<codesign:actuator>` of a joint of this law. @throws InputError
+ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context);
 
 /// Reads a `<joint>` of the tree. @throws InputError

@@ -87,7 +87,7 @@ class Writer {
   }
 
   bool takes_actuator(const JointDescription& joint) const {
-    return !joint.is_loop && has_one_coordinate(joint.type) && !joint.actuator && !joint.mimic;
+    return !joint.is_loop && joint.has_one_coordinate() && !joint.actuator && !joint.mimic;
   }
 
   /// The reductions of `<transmission>`, which are read for joints with an actuator.
@@ -197,7 +197,7 @@ class Writer {
       const auto element = std::find_if(joints.begin(), joints.end(), [&](const XmlElement& one) {
         return one.find("name") == joint.name;
       });
-      if (joint.is_loop || joint.mimic || !has_one_coordinate(joint.type)) continue;
+      if (joint.is_loop || joint.mimic || !joint.has_one_coordinate()) continue;
       if (element != joints.end()) write_joint(joint, *element);
     }
   }

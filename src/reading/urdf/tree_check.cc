@@ -141,8 +141,7 @@ void check_mimics(RobotDescription* robot) {
   std::map<std::string, const JointDescription*> targets;
   std::vector<std::string> names;
   for (const JointDescription& joint : robot->joints) {
-    const bool several = joint.type == JointType::kPlanar || joint.type == JointType::kFloating;
-    if (joint.is_loop || several) continue;
+    if (joint.is_loop || joint.has_pose()) continue;
     targets[joint.name] = &joint;
     names.push_back(joint.name);
   }
@@ -167,8 +166,8 @@ void check_friction(const RobotDescription& robot) {
     if (!joint.friction) continue;
     // Of a chain across links without mass, only the whole has a kind; but nothing slips in a fixed
     // joint of it.
-    const bool is_whole = joint.is_loop || joint.type == JointType::kFixed ||
-                          (is_body(joint.parent) && is_body(joint.child));
+    const bool is_whole =
+        joint.is_loop || joint.is_fixed() || (is_body(joint.parent) && is_body(joint.child));
     if (is_whole)
       check_friction_geometry(*joint.friction, kind_of(joint),
                               joint.element() + " <codesign:friction>");

@@ -1,13 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "identification/fit/residual_source.h"
 
 namespace codesign {
 namespace {
 
 TEST(Loss, ASumOfSquares) {
-  const LossValue value = loss_of({LossKind::kNone, 1.0}, -3.0);
+  const LossValue value = loss_of({LossKind::kSquare, 1.0}, -3.0);
   EXPECT_EQ(value.value, 9.0);
   EXPECT_EQ(value.weight, 1.0);
 }
@@ -30,14 +32,13 @@ TEST(Loss, SoftL1) {
 }
 
 TEST(Loss, TheWeightIsHalfTheSlopeOverTheResidual) {
-  for (const LossKind kind : {LossKind::kNone, LossKind::kHuber, LossKind::kSoftL1})
+  for (const LossKind& kind : {LossKind::kSquare, LossKind::kHuber, LossKind::kSoftL1})
     for (const double u : {-5.0, -0.3, 0.7, 4.0}) {
       const LossOptions options{kind, 1.345};
       const double h = 1e-6;
       const double slope =
           (loss_of(options, u + h).value - loss_of(options, u - h).value) / (2.0 * h);
-      EXPECT_NEAR(loss_of(options, u).weight, slope / (2.0 * u), 1e-8)
-          << kLossNames[static_cast<std::size_t>(kind)] << " at " << u;
+      EXPECT_NEAR(loss_of(options, u).weight, slope / (2.0 * u), 1e-8) << kind->name << " at " << u;
     }
 }
 

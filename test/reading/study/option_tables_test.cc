@@ -54,6 +54,13 @@ struct PageCheck {
           << block << "." << key << ": " << text;
     }
   }
+  void operator()(const std::string& key, LossKind& option) const {
+    const PageOption row = claim(key);
+    for (const auto& [name, kind] : fit_losses()) {
+      EXPECT_NE(row.sentence.find("`" + name + "`"), std::string::npos) << key << ": " << name;
+      EXPECT_EQ(kind == option, row.standard.rfind("`" + name + "`", 0) == 0) << key << name;
+    }
+  }
   /// A number that follows the machine where it is not given.
   void operator()(const std::string& key, const OptionRange&, std::optional<double>& option) const {
     EXPECT_NE(claim(key).standard.find("follows the machine"), std::string::npos) << key;

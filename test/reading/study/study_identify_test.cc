@@ -33,7 +33,7 @@ TEST(StudyIdentify, IsThereOnlyIfWritten) {
   EXPECT_EQ(description.residual, ResidualKind::kEffort);
   EXPECT_EQ(description.segment, 1.0);
   EXPECT_EQ(description.filter.cutoff, 0.0);
-  EXPECT_EQ(description.loss.kind, LossKind::kNone);
+  EXPECT_EQ(description.loss.kind, LossKind::kSquare);
   EXPECT_EQ(description.intervals.noise, NoiseModel::kCorrelated);
   EXPECT_EQ(description.intervals.level, 0.95);
   EXPECT_EQ(description.where.line, 3);

@@ -30,6 +30,19 @@ TEST(StudyObjective, ReadsTerms) {
   EXPECT_EQ(study.terminal[0].where.line, 3);
 }
 
+TEST(StudyObjective, ReadsLosses) {
+  const Study study = read_text(with_objective(
+      "{integral: [{signal: speed/output}, {signal: speed/output, loss: square}, {signal: "
+      "speed/output, loss: huber, scale: \"${2*rod_length}\"}], terminal: [{signal: "
+      "speed/output, loss: above}]}"));
+  ASSERT_EQ(study.integral.size(), 3U);
+  EXPECT_EQ(study.integral[0].loss, LossKind::kSquare);
+  EXPECT_EQ(study.integral[1].loss, LossKind::kSquare);
+  EXPECT_EQ(study.integral[2].loss, LossKind::kHuber);
+  EXPECT_EQ(study.integral[2].scale.nominal(), 0.6);
+  EXPECT_EQ(study.terminal.at(0).loss, LossKind::kAbove);
+}
+
 TEST(StudyObjective, MayBeEmptyOrLeftOut) {
   for (const std::string& none :
        {with_objective("{}"), with_objective("{integral: [], terminal: []}"),

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "integration/rosenbrock_step.h"
+#include "integration/one_step.h"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 namespace codesign {
 namespace {
 
-class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
+class OneStepTest : public ::testing::TestWithParam<const char*> {
  protected:
   const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
-  RosenbrockStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
+  OneStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
 
   /// The state after a span in `count` equal steps.
   State<double> run(double span, int count) {
@@ -22,7 +22,7 @@ class RosenbrockStepTest : public ::testing::TestWithParam<const char*> {
   }
 };
 
-TEST_P(RosenbrockStepTest, ConvergesWithItsOrder) {
+TEST_P(OneStepTest, ConvergesWithItsOrder) {
   const auto distance = [](const State<double>& x, const State<double>& y) {
     return (x.q - y.q).norm() + (x.v - y.v).norm();
   };
@@ -32,7 +32,7 @@ TEST_P(RosenbrockStepTest, ConvergesWithItsOrder) {
   EXPECT_GT(ratio, 0.7 * std::pow(2.0, step.tableau().order));
 }
 
-TEST_P(RosenbrockStepTest, EndsOnTheConstraints) {
+TEST_P(OneStepTest, EndsOnTheConstraints) {
   const State<double> end = run(0.1, 10);
   VectorX<double> Phi, rates;
   step.equations().constraint_errors(end, &Phi, &rates);
@@ -40,7 +40,7 @@ TEST_P(RosenbrockStepTest, EndsOnTheConstraints) {
   EXPECT_LT(rates.cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST_P(RosenbrockStepTest, DenseOutputMeetsBothEndsAndTheMiddle) {
+TEST_P(OneStepTest, DenseOutputMeetsBothEndsAndTheMiddle) {
   const State<double> end = run(0.01, 1);
   State<double> at;
   double psi = 0.0;
@@ -51,7 +51,7 @@ TEST_P(RosenbrockStepTest, DenseOutputMeetsBothEndsAndTheMiddle) {
   EXPECT_LT((at.q - run(0.005, 10).q).norm(), 1e-5);
 }
 
-TEST_P(RosenbrockStepTest, ErrorIsThatOfTheEmbeddedSolution) {
+TEST_P(OneStepTest, ErrorIsThatOfTheEmbeddedSolution) {
   run(0.01, 1);
   ASSERT_TRUE(step.attempt(0.01));
   const double coarse = step.error(1e-6, 1e-6);
@@ -60,7 +60,7 @@ TEST_P(RosenbrockStepTest, ErrorIsThatOfTheEmbeddedSolution) {
   EXPECT_LT(step.error(1e-6, 1e-6), 0.2 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, RosenbrockStepTest,
+INSTANTIATE_TEST_SUITE_P(Methods, OneStepTest,
                          ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
 
 }  // namespace
