@@ -20,7 +20,7 @@ struct StepProbe::Parts {
   std::shared_ptr<const CompiledSystem> system;
   double h;
   RosenbrockIntegrator integrator;
-  RosenbrockStep<double> step;
+  OneStep<double> step;
   StageMatrix<double> matrix;
   Equations<double> equations, interpreted;
   Linearization<double> derivatives;
