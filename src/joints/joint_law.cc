@@ -262,19 +262,23 @@ constexpr JointLaw kJointTable[] = {fixed(),
                                     table(),
                                     translational()};
 
-}  // namespace
-
-const JointLaw& row_of(JointType type) {
+// A constant expression, so that the constants below exist before any static object is made.
+constexpr const JointLaw& find_row(JointType type) {
   std::size_t k = 0;
   while (kJointTable[k].type != type) ++k;
   return kJointTable[k];
 }
 
-const PairKind PairKind::kFixed{row_of(J::kFixed)}, PairKind::kRevolute{row_of(J::kRevolute)},
-    PairKind::kPrismatic{row_of(J::kPrismatic)}, PairKind::kCylindrical{row_of(J::kCylindrical)},
-    PairKind::kUniversal{row_of(J::kUniversal)}, PairKind::kSpherical{row_of(J::kSpherical)},
-    PairKind::kPlanar{row_of(J::kPlanar)}, PairKind::kDistance{row_of(J::kDistance)},
-    PairKind::kFree{row_of(J::kFloating)}, PairKind::kTable{kJointTable[10]},
+}  // namespace
+
+const JointLaw& row_of(JointType type) { return find_row(type); }
+
+const PairKind PairKind::kFixed{find_row(J::kFixed)}, PairKind::kRevolute{find_row(J::kRevolute)},
+    PairKind::kPrismatic{find_row(J::kPrismatic)},
+    PairKind::kCylindrical{find_row(J::kCylindrical)},
+    PairKind::kUniversal{find_row(J::kUniversal)}, PairKind::kSpherical{find_row(J::kSpherical)},
+    PairKind::kPlanar{find_row(J::kPlanar)}, PairKind::kDistance{find_row(J::kDistance)},
+    PairKind::kFree{find_row(J::kFloating)}, PairKind::kTable{kJointTable[10]},
     PairKind::kTranslational{kJointTable[11]};
 
 std::vector<RowReference<JointLaw>> joint_laws() {
