@@ -32,8 +32,7 @@ class TurnFollower {
   /// @param from its references of turns are those of its positions, Equations::track_turns().
   /// @param equations must hold the design.
   void follow(const State<T>& from, Equations<T>* equations, State<T>* to) {
-    // Compared first: stages of a run without whole turns have them already, and each is one copy.
-    if (to->turns != from.turns) to->turns = from.turns;
+    to->turns = from.turns;
     if (ways_.empty() || !(farthest_ * largest_change(from, *to) > kSure)) return;
     const double way = longest_way(from, *to);
     if (way > kSure) count(from, way, equations, to);
