@@ -13,7 +13,6 @@
 #include "assembly/stuck_start.h"
 #include "assembly/tree_coordinates.h"
 #include "equations/compiled_system.h"
-#include "equations/iteration_matrix.h"
 #include "equations/turn_follower.h"
 #include "mechanism_codesign/status.h"
 #include "system/tree_kinematics.h"

@@ -37,7 +37,7 @@ struct StepMemory {
   }
 
   std::size_t count() const { return to_index(tableau->stages); }
-  /// The sum of factors over the stages of the tableau.
+  /// A row of factors, as far as the tableau has stages.
   In<double> of_stages(const RosenbrockTableau::Row& factors) const {
     return In<double>(factors).first(tableau->stages);
   }

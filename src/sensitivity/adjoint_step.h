@@ -37,7 +37,7 @@ class MatrixWeights {
   ByVariable<std::vector<double>> weights_;
 };
 
-/// One step of OneStep differentiated backwards; doc/theory.md (18b), (18c).
+/// A step, OneStep, differentiated backwards; doc/theory.md (18b), (18c).
 ///
 /// It holds the adjoint psi_y of the state. Each step is reversed in three calls: the stages in
 /// reverse order (E^T mu_i = ...), the projection at its start, and the matrices, which are

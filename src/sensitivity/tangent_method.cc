@@ -7,7 +7,7 @@
 
 namespace codesign {
 
-// Sets w' in increment i, the derivative of OneStep::stage_start().
+// Sets w' in increment i, the derivative of RosenbrockStages::stage_start().
 template <int N>
 void RosenbrockTangent<N>::stage_start(std::size_t i, double h) {
   const double hg = h * m_.tableau->gamma;
@@ -100,7 +100,7 @@ void RosenbrockTangent<N>::attempt(OneStep<double>* step) {
   for (std::size_t i = 0; i < m_.count(); ++i) stage_tangent(i, *step);
 }
 
-// The derivative of OneStep::take_rates(), with z' from G = 0.
+// The derivative of ExplicitStages::take_rates(), with z' from G = 0.
 template <int N>
 void ExplicitTangent<N>::explicit_stage(std::size_t i, OneStep<double>* step) {
   const double h = step->step_size();

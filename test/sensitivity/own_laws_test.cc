@@ -229,6 +229,26 @@ TEST(OwnLaws, ALossCountsAsItsFunctionSays) {
       << "it is no square";
 }
 
+TEST(OwnLaws, SuchAJointStartsOnlyAsItCanMove) {
+  const auto complaint = [](const std::string& urdf, const std::string& start) {
+    try {
+      own(urdf, "duration: 0.5\ninitial_state: {sleeve: " + start + "}\n");
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(sleeved(), "{translation: [0, 0, 0.1], rotation: 0.7}"), "");
+  EXPECT_NE(complaint(sleeved(), "{translation: [0.2, 0, 0.1]}").find("across it is 0.2"),
+            std::string::npos);
+  EXPECT_NE(complaint(sleeved(), "{rotation: [0, 0, 0.7]}").find("turns only about its axis"),
+            std::string::npos);
+  std::string fixed = sleeved();
+  fixed.replace(fixed.find("floating"), 8, "fixed");
+  EXPECT_NE(complaint(fixed, "{rotation: 0.7}").find("must be floating for other readers"),
+            std::string::npos);
+}
+
 TEST(OwnLaws, AFunctionOfTheSpeedAlsoSlipsInSeveralDirections) {
   FrictionNumbers<double> c;
   c.mu_static = kMuS;

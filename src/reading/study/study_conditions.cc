@@ -98,7 +98,9 @@ void read_pose_start(const YamlValue& value, const JointDescription& joint,
     const auto found = value.find(key);
     if (!found) return;
     if (turns_once && found->is_list())
-      found->fail("a planar joint turns only about its normal", "one number");
+      found->fail(joint.freedoms().slides == 2 ? "a planar joint turns only about its normal"
+                                               : "this joint turns only about its axis",
+                  "one number");
     *result = turns_once ? QuantityVector{0.0, 0.0, read_quantity(*found, table)}
                          : read_vector(*found, table);
   };
