@@ -15,6 +15,7 @@ ODD_KEYS = {"bzip2": "libbz2-dev", "dynamic_reconfigure": "libdynamic-reconfigur
 # Packages for building and for taking pictures, and packages without a key of rosdep on every distribution.
 NOT_IN_PACKAGE_XML = {
     "g++", "make", "ninja-build", "ccache", "cmake", "python3", "xvfb", "imagemagick", "libbenchmark-dev", "libsimbody-dev", "python3-venv",
+    "python3-mpi4py", "python3-distributed",
     "mypy", "python3-nbclient", "python3-nbformat", "python3-ipykernel",
     "libsundials-dev", "libnlopt-dev", "libnlopt-cxx-dev", "libxbyak-dev", "libopenmpi-dev", "openmpi-bin"}
 
@@ -46,19 +47,25 @@ def undeclared(packages, keys_):
     return packages - NOT_IN_PACKAGE_XML - {name for key in keys_ for name in debian_names(key)}
 
 
-def imported(*folders):
-    """The modules that the Python files of these folders import from elsewhere."""
-    modules, here = set(), set()
+def python_files(*folders):
+    """(path, text) of the Python files of these folders."""
     for folder in folders:
         for path, _, files in os.walk(os.path.join(ROOT, folder)):
-            if "__init__.py" in files:
-                here.add(os.path.basename(path))
-            for file in files:
-                with open(os.path.join(path, file), errors="replace") as text:
-                    if text.readline().startswith("#!/usr/bin/python3") or file.endswith(".py"):
-                        here.add(file.split(".")[0])
-                        modules |= set(re.findall(r"^\s*(?:from|import) ([A-Za-z0-9_]+)", text.read(), re.MULTILINE))
-    return modules - here
+            for file in (os.path.join(path, name) for name in files):
+                with open(file, errors="replace") as opened:
+                    text = opened.read()
+                if text.startswith("#!/usr/bin/python3") or file.endswith(".py"):
+                    yield file, text
+
+
+def imported(*folders):
+    """The modules that the Python files of these folders import from elsewhere."""
+    own = set()
+    for file, _ in python_files("scripts", "python", "test", "benchmark"):
+        module = os.path.basename(file).split(".")[0]
+        own.add(os.path.basename(os.path.dirname(file)) if module == "__init__" else module)
+    modules = {module for _, text in python_files(*folders) for module in re.findall(r"^\s*(?:from|import) ([A-Za-z0-9_]+)", text, re.MULTILINE)}
+    return modules - own
 
 
 class PackagesTest(unittest.TestCase):
@@ -74,10 +81,11 @@ class PackagesTest(unittest.TestCase):
 
     def test_python_modules_are_installed_by_name(self):
         """A module that a script imports comes from python3-MODULE, which a machine may have by accident."""
-        packages = listed("--headless")
-        modules = imported("scripts", "python", "test", "benchmark") - set(sys.stdlib_module_names) - {"mechanism_codesign"} - FROM_PYPI
-        self.assertIn("tf2_ros", modules)
-        self.assertEqual({m for m in modules if "python3-" + m.replace("_", "-") not in packages}, set())
+        for folders, options, known in ((("scripts", "python", "test"), (), "tf2_ros"), (("benchmark",), ("--benchmark",), "mpi4py")):
+            packages = listed("--headless", *options)
+            modules = imported(*folders) - set(sys.stdlib_module_names) - {"mechanism_codesign"} - FROM_PYPI
+            self.assertIn(known, modules)
+            self.assertEqual({m for m in modules if "python3-" + m.replace("_", "-") not in packages}, set())
 
     def test_the_core_needs_no_ros(self):
         core = listed("--core")
