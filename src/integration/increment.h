@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "integration/tableau.h"
@@ -36,6 +37,8 @@ template <std::size_t count, class T>
 inline void combine_parts(const T* from, const double* factors, const T* const* parts, int first,
                           int length, T* to) {
   int k = 0;
+  // NOLINTBEGIN(clang-analyzer-core.*): `count` parts are there; the analyzer takes it for another
+  // number than that of the factors by which they were collected.
   if constexpr (std::is_same_v<T, double>) {
     using Four = Lanes<4>::Four;
     for (; k + 4 <= length; k += 4) {
@@ -50,15 +53,16 @@ inline void combine_parts(const T* from, const double* factors, const T* const* 
     for (std::size_t j = 0; j < count; ++j) sum += factors[j] * parts[j][first + k];
     to[k] = sum;
   }
+  // NOLINTEND(clang-analyzer-core.*)
 }
 
 /// Calls run(std::integral_constant<std::size_t, count>()), so that loops over the stages are
-/// unrolled.
-template <std::size_t most = RosenbrockTableau::kMaximumStages, class Run>
-void with_count(std::size_t count, const Run& run) {
-  if (count == most) return run(std::integral_constant<std::size_t, most>());
-  if constexpr (most > 0) with_count<most - 1>(count, run);
+/// unrolled; one expression, which a compiler makes one jump.
+template <std::size_t... counts, class Run>
+inline void with_count(std::size_t count, std::index_sequence<counts...>, const Run& run) {
+  (void)((count == counts && (run(std::integral_constant<std::size_t, counts>()), true)) || ...);
 }
+using Counts = std::make_index_sequence<RosenbrockTableau::kMaximumStages + 1>;
 
 }  // namespace internal
 
@@ -69,7 +73,7 @@ template <class T>
 void combine(In<T> from, In<double> factors,
              const T* const (&parts)[RosenbrockTableau::kMaximumStages], Out<T> to) {
   assert(from.size() == to.size() && factors.size() <= RosenbrockTableau::kMaximumStages);
-  internal::with_count(to_index(factors.size()), [&](auto count) {
+  internal::with_count(to_index(factors.size()), internal::Counts(), [&](auto count) {
     internal::combine_parts<count>(from.data(), factors.data(), parts, 0,
                                    static_cast<int>(to.size()), to.data());
   });
@@ -91,7 +95,7 @@ void combine(const IncrementLayout& at, const State<T>& from, In<double> factors
              const std::vector<VectorX<T>>& u, State<T>* to) {
   const T* parts[RosenbrockTableau::kMaximumStages];
   for (std::ptrdiff_t j = 0; j < factors.size(); ++j) parts[j] = u[to_index(j)].data();
-  internal::with_count(to_index(factors.size()), [&](auto count) {
+  internal::with_count(to_index(factors.size()), internal::Counts(), [&](auto count) {
     const auto part = [&](const VectorX<T>& begin, int first, VectorX<T>* end) {
       internal::combine_parts<count>(begin.data(), factors.data(), parts, first,
                                      static_cast<int>(end->size()), end->data());

@@ -21,7 +21,7 @@ T gauss(const T& v, const T& mu_static, const T& mu_dynamic, const FrictionNumbe
   using std::exp;
   using std::tanh;
   const T w = v / c.transition_velocity;
-  return (mu_dynamic + (mu_static - mu_dynamic) * exp(-w * w)) * tanh(T(8.0) * w);
+  return (mu_dynamic + (mu_static - mu_dynamic) * exp(-w * w)) * tanh(8.0 * w);
 }
 const FrictionLaw kGauss{"gauss", "Gauss", {gauss, gauss}};
 
@@ -69,7 +69,7 @@ template <class T>
 T cauchy(const LossValues<T>& x) {
   using std::log;
   const T u = x.residual() / x.scale;
-  return x.scale * x.scale * log(T(1.0) + u * u);
+  return x.scale * x.scale * log(1.0 + u * u);
 }
 const LossLaw kCauchy{"cauchy", {}, {cauchy, cauchy}, true};
 
