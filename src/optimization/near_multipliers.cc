@@ -13,388 +13,247 @@ namespace codesign {
 namespace {
 
 using Eigen::Index;
-constexpr double kNear = 1e-6;     // of the length of a direction
-constexpr Index kMostNear = 10;    // near inequalities per variable; more count as kNear away
-constexpr int kMostRounds = 100;   // of Newton's method, which takes about ten
-constexpr int kMostHalvings = 30;  // of its steps
-// Refinements of the multipliers of far rows, which each reduce their error by the rounding of r
-// over kNear squared.
-constexpr int kRefinements = 2;
-constexpr double kLeastShare = 1e-4;        // of the slope that a step must gain
-constexpr double kRoundingOfValue = 1e-24;  // of |g|^2
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
-double length_of(const Holder& holder) {
-  double sum = holder.leading.squaredNorm();
-  for (const auto& [variable, entry] : holder.others) sum += entry * entry;
-  return std::sqrt(sum);
-}
+// Least distances, in lengths of the directions. The first ones find the active rows in a few
+// rounds, with the last one the rounding of r is worth four digits of a multiplier.
+constexpr double kLeastDistances[] = {1e-2, 1e-4, 1e-6, 1e-6};
+constexpr int kMostRounds = 100;     // of Newton's method, which takes about five
+constexpr int kRefinements = 2;      // each reduces the rounding of the multipliers by 1e-4
+constexpr double kRounding = 1e-20;  // of |g|^2, in slopes
+constexpr double kWholeStep = 1e-12;
 
-/// Near and far holders; a row without a direction is neither.
-struct Places {
-  std::vector<std::size_t> near, far;
-  std::vector<double> far_distances;
-};
-
-Places places_of(const std::vector<Holder>& holders, Index variables) {
-  Places places;
-  std::vector<std::pair<double, std::size_t>> close;
-  const auto add_far = [&places](std::size_t k, double distance) {
-    places.far.push_back(k);
-    places.far_distances.push_back(distance);
-  };
-  for (std::size_t k = 0; k < holders.size(); ++k) {
-    const double length = length_of(holders[k]);
-    if (!(length > 0.0)) continue;
-    if (holders[k].any_sign || holders[k].is_on_bound())
-      places.near.push_back(k);
-    else if (holders[k].distance <= kNear * length)
-      close.emplace_back(holders[k].distance / length, k);
-    else
-      add_far(k, holders[k].distance);
-  }
-  std::sort(close.begin(), close.end());
-  for (std::size_t i = 0; i < close.size(); ++i)
-    if (const std::size_t k = close[i].second; i < to_index(kMostNear * variables))
-      places.near.push_back(k);
-    else
-      add_far(k, kNear * length_of(holders[k]));
-  return places;
-}
-
-/// Newton's method for the sum of squares as a function of r,
-///   F(r) = r^T r - 2 g^T r + sum over far rows of max(0, w_k^T r)^2 + that of near rows,
-/// which is convex and, but for near rows, quadratic between the planes w_k^T r = 0. Its minimum is
-/// -s^2.
-class NewtonSearch {
+/// The directions of all holders, one after another. Rows that read the same variables form a
+/// group, so that time and memory are those of the variables that a row reads.
+class Directions {
  public:
-  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
-               const std::atomic<bool>* cancel)
-      : NewtonSearch(gradient, holders, places_of(holders, gradient.size()), cancel) {}
-
-  Multipliers run() {
-    std::vector<bool> active(far_.size(), false);
-    near_.minimize(far_.metric(active));
-    r_ = near_.rest();
-    along_ = far_.along(r_);
-    products_ = near_.products();
-    for (int round = 0; round < kMostRounds && !is_cancelled(); ++round) {
-      std::vector<bool> now(far_.size());
-      for (std::size_t k = 0; k < now.size(); ++k) now[k] = along_[static_cast<Index>(k)] > 0.0;
-      if (now == active && is_full_) break;
-      active = std::move(now);
-      near_.minimize(far_.metric(active));
-      if (!step()) break;
+  Directions(Index variables, const std::vector<Holder>& holders)
+      : variables_(variables), holders_(holders) {
+    Index leading = 0;
+    for (const Holder& holder : holders) leading = std::max(leading, holder.leading.size());
+    leading_.setZero(leading, to_signed(holders.size()));
+    lengths_.resize(to_signed(holders.size()));
+    std::map<std::vector<Index>, std::vector<Index>> groups;
+    for (Index row = 0; row < lengths_.size(); ++row) {
+      const Holder& one = holder(row);
+      leading_.col(row).head(one.leading.size()) = one.leading;
+      double square = one.leading.squaredNorm();
+      std::vector<Index> pattern;
+      for (const auto& [variable, entry] : one.others) {
+        pattern.push_back(variable);
+        square += entry * entry;
+      }
+      lengths_[row] = std::sqrt(square);
+      if (!one.is_bound) groups[std::move(pattern)].push_back(row);
     }
-    refine(active);
-    return multipliers();
+    for (auto& [pattern, rows] : groups) groups_.push_back(std::move(rows));
+  }
+
+  /// |a| of each row.
+  const VectorXd& lengths() const { return lengths_; }
+  /// a^T x of each row.
+  VectorXd along(const VectorXd& x) const {
+    VectorXd products = leading_.transpose() * x.head(leading_.rows());
+    for (Index row = 0; row < products.size(); ++row)
+      for (const auto& [variable, entry] : holder(row).others) products[row] += entry * x[variable];
+    return products;
+  }
+  /// sum_k c_k a_k.
+  VectorXd sum(const VectorXd& c) const {
+    VectorXd x = VectorXd::Zero(variables_);
+    x.head(leading_.rows()) = leading_ * c;
+    for (Index row = 0; row < c.size(); ++row)
+      for (const auto& [variable, entry] : holder(row).others) x[variable] += entry * c[row];
+    return x;
+  }
+  /// R with R^T R = I + sum_k a_k a_k^T / D_k^2 over the active rows.
+  MatrixXd factor(const VectorXd& distances, const std::vector<bool>& active) const {
+    VectorXd squares = VectorXd::Ones(variables_);
+    for (Index row = 0; row < distances.size(); ++row)
+      if (active[to_index(row)] && holder(row).is_bound)
+        squares[holder(row).others[0].first] += std::pow(distances[row], -2);
+    MatrixXd rows = squares.cwiseSqrt().asDiagonal();
+    for (const std::vector<Index>& group : groups_) append(group, distances, active, &rows);
+    return upper_factor(rows);
   }
 
  private:
-  NewtonSearch(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
-               const Places& places, const std::atomic<bool>* cancel)
+  const Holder& holder(Index row) const { return holders_[to_index(row)]; }
+
+  /// Appends the active rows of a group, as a triangle if they are more than the variables that
+  /// they read.
+  void append(const std::vector<Index>& group, const VectorXd& distances,
+              const std::vector<bool>& active, MatrixXd* rows) const {
+    std::vector<Index> chosen;
+    for (const Index row : group)
+      if (active[to_index(row)]) chosen.push_back(row);
+    if (chosen.empty()) return;
+    const auto& pattern = holder(chosen[0]).others;
+    const Index leading = leading_.rows(), columns = leading + to_signed(pattern.size());
+    MatrixXd block(to_signed(chosen.size()), columns);
+    for (Index k = 0; k < block.rows(); ++k) {
+      const Index row = chosen[to_index(k)];
+      block.row(k).head(leading) = leading_.col(row).transpose();
+      for (std::size_t i = 0; i < pattern.size(); ++i)
+        block(k, leading + to_signed(i)) = holder(row).others[i].second;
+      block.row(k) /= distances[row];
+    }
+    if (block.rows() > columns) block = upper_factor(block);
+    rows->conservativeResize(rows->rows() + block.rows(), Eigen::NoChange);
+    auto added = rows->bottomRows(block.rows());
+    added.setZero();
+    added.leftCols(leading) = block.leftCols(leading);
+    for (std::size_t i = 0; i < pattern.size(); ++i)
+      added.col(pattern[i].first) = block.col(leading + to_signed(i));
+  }
+
+  const Index variables_;
+  const std::vector<Holder>& holders_;
+  MatrixXd leading_;  ///< leading entries of a, one column per row
+  VectorXd lengths_;
+  std::vector<std::vector<Index>> groups_;  ///< rows that read the same variables, without bounds
+};
+
+/// Newton's method with distances D of at least a share of the lengths. From multipliers c' it
+/// minimizes s^2 + sum (D^2 - d^2)(c - c')^2, the minimum of which has
+///   c D = max(0, a^T r / D + b),    b = (D^2 - d^2) c' / D.
+class NewtonSearch {
+ public:
+  NewtonSearch(const VectorXd& gradient, const std::vector<Holder>& holders,
+               const std::atomic<bool>* cancel)
       : gradient_(gradient),
         holders_(holders),
         cancel_(cancel),
-        nearest_(places.near),
-        far_(gradient.size(), holders, places.far,
-             Eigen::Map<const Eigen::VectorXd>(places.far_distances.data(),
-                                               static_cast<Index>(places.far_distances.size()))),
-        near_(gradient, holders, nearest_, cancel) {}
+        directions_(gradient.size(), holders),
+        active_(holders.size()) {
+    const auto count = to_signed(holders.size());
+    own_.resize(count);
+    for (Index k = 0; k < count; ++k) own_[k] = holders[to_index(k)].distance;
+    best_.values.setZero(count);
+    take(best_.values);
+  }
 
+  Multipliers run() {
+    VectorXd c = best_.values;
+    for (const double least : kLeastDistances) {
+      // A row without a direction has no multiplier, whatever its distance.
+      distances_ = own_.cwiseMax(least * directions_.lengths());
+      distances_ = (distances_.array() > 0.0).select(distances_, 1.0);
+      offsets_ =
+          (distances_.cwiseAbs2() - own_.cwiseAbs2()).cwiseProduct(c).cwiseQuotient(distances_);
+      set_active(c);
+      move();
+      if (is_cancelled()) break;
+      c = refined();
+      take(c);
+    }
+    best_.factorizations = factorizations_;
+    return best_;
+  }
+
+ private:
   bool is_cancelled() const { return cancel_ && *cancel_; }
+  bool is_free(Index k) const { return holders_[to_index(k)].any_sign; }
 
-  static double square(const Eigen::VectorXd& along) { return along.cwiseMax(0.0).squaredNorm(); }
-
-  /// Goes towards the minimum for the active rows as far as F falls. False at the minimum.
-  bool step() {
-    const Eigen::VectorXd p = near_.rest() - r_, change = far_.along(near_.rest()) - along_;
-    const double near_change = near_.products() - products_;
-    const auto value = [&](double t) {
-      return t * (p.dot(2.0 * (r_ - gradient_) + t * p) + near_change) +
-             square(along_ + t * change) - square(along_);
-    };
-    const double slope =
-        2.0 * (p.dot(r_ - gradient_) + along_.cwiseMax(0.0).dot(change)) + near_change;
-    if (!(slope < -kRoundingOfValue * gradient_.squaredNorm())) return false;
-    double t = 1.0;
-    for (int k = 0; k < kMostHalvings && !(value(t) <= kLeastShare * t * slope); ++k) t *= 0.5;
-    is_full_ = t == 1.0;
-    r_ += t * p;
-    along_ += t * change;
-    products_ += t * near_change;
-    return true;
+  void set_active(const VectorXd& signs) {
+    for (Index k = 0; k < signs.size(); ++k)
+      active_[to_index(k)] = signs[k] > 0.0 || (is_free(k) && directions_.lengths()[k] > 0.0);
+    factor_ = directions_.factor(distances_, active_);
+    ++factorizations_;
+  }
+  VectorXd of_active(const VectorXd& x) const {
+    VectorXd part = x;
+    for (Index k = 0; k < x.size(); ++k)
+      if (!active_[to_index(k)]) part[k] = 0.0;
+    return part;
+  }
+  VectorXd solve(VectorXd x) const {
+    factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(x);
+    factor_.triangularView<Eigen::Upper>().solveInPlace(x);
+    return x;
+  }
+  /// r for the active rows.
+  VectorXd target() const {
+    return solve(gradient_ - directions_.sum(of_active(offsets_).cwiseQuotient(distances_)));
   }
 
-  /// The multipliers of far rows for the r of near ones, and their rounding corrected by the r that
-  /// they leave.
-  void refine(const std::vector<bool>& active) {
-    r_ = near_.rest();
-    rest_ = gradient_ - near_.held();
-    weights_.setZero(static_cast<Index>(far_.size()));
-    if (near_.factorizations() == 0) return;
-    for (int k = 0; k <= kRefinements; ++k) {
-      const Eigen::VectorXd along = far_.along(r_);
-      for (std::size_t i = 0; i < active.size(); ++i)
-        if (const auto row = static_cast<Index>(i); active[i])
-          weights_[row] = std::max(0.0, weights_[row] + along[row]);
-      const Eigen::VectorXd without_near = gradient_ - far_.sum(weights_);
-      near_.balance_bounds(without_near);
-      rest_ = without_near - near_.held();
+  void move() {
+    VectorXd r = target();
+    for (int round = 0; round < kMostRounds && !is_cancelled(); ++round) {
+      const VectorXd along = directions_.along(r).cwiseQuotient(distances_) + offsets_;
+      const std::vector<bool> before = active_;
+      set_active(along);
+      if (round > 0 && is_whole_ && before == active_) return;
+      const VectorXd p = target() - r, change = directions_.along(p).cwiseQuotient(distances_);
+      const double slope = p.dot(r - gradient_) + of_active(along).dot(change);
+      if (!(slope < -kRounding * gradient_.squaredNorm())) return;
+      const double step = least_along(along, change, slope, p.squaredNorm());
+      is_whole_ = std::abs(step - 1.0) < kWholeStep;
+      r += step * p;
+    }
+  }
+
+  /// The minimum along a line, on which the slope is linear between the places where rows become
+  /// active or inactive.
+  double least_along(const VectorXd& along, const VectorXd& change, double slope,
+                     double curvature) const {
+    std::vector<std::pair<double, Index>> places;
+    for (Index k = 0; k < along.size(); ++k) {
+      if (active_[to_index(k)]) curvature += change[k] * change[k];
+      if (const double t = -along[k] / change[k]; !is_free(k) && t > 0.0 && std::isfinite(t))
+        places.emplace_back(t, k);
+    }
+    std::sort(places.begin(), places.end());
+    double at = 0.0;
+    for (const auto& [t, k] : places) {
+      if (slope + curvature * (t - at) >= 0.0) break;
+      slope += curvature * (t - at);
+      at = t;
+      curvature += std::copysign(change[k] * change[k], change[k]);
+    }
+    return at - slope / curvature;
+  }
+
+  /// The multipliers, and their rounding corrected by the r that they leave.
+  VectorXd refined() const {
+    VectorXd r = target(), total = VectorXd::Zero(r.size()), products = of_active(offsets_);
+    for (int k = 0;; ++k) {
+      products += of_active(directions_.along(r).cwiseQuotient(distances_));
+      for (Index i = 0; i < products.size(); ++i)
+        if (!is_free(i)) products[i] = std::max(0.0, products[i]);
+      const VectorXd c = products.cwiseQuotient(distances_);
+      if (k == kRefinements) return c;
       // What r should be, less what it is.
-      total_ = k == 0 ? r_ : Eigen::VectorXd(total_ + r_);
-      r_ = near_.solve(rest_ - total_);
+      total += r;
+      r = solve(gradient_ - directions_.sum(c) - total);
     }
   }
 
-  Multipliers multipliers() const {
-    Multipliers result;
-    result.values.setZero(static_cast<Index>(holders_.size()));
-    result.near.assign(holders_.size(), false);
-    for (std::size_t k = 0; k < nearest_.size(); ++k) {
-      result.values[static_cast<Index>(nearest_[k])] = near_.values()[static_cast<Index>(k)];
-      result.near[nearest_[k]] = true;
-    }
-    for (std::size_t k = 0; k < far_.size(); ++k)
-      result.values[static_cast<Index>(far_.holder(k))] =
-          weights_[static_cast<Index>(k)] / far_.distance(k);
-    result.rest = rest_;
-    double sum = rest_.squaredNorm();
-    for (std::size_t k = 0; k < holders_.size(); ++k)
-      sum += std::pow(result.values[static_cast<Index>(k)] * holders_[k].distance, 2);
-    result.residual = std::sqrt(sum);
-    result.factorizations = near_.factorizations();
-    return result;
+  /// Keeps multipliers if their sum of squares is the least so far.
+  void take(const VectorXd& c) {
+    const VectorXd rest = gradient_ - directions_.sum(c);
+    const double s = std::sqrt(rest.squaredNorm() + c.cwiseProduct(own_).squaredNorm());
+    if (best_.rest.size() == 0 || s < best_.residual) best_ = {c, rest, s, 0};
   }
 
-  const Eigen::VectorXd& gradient_;
+  const VectorXd& gradient_;
   const std::vector<Holder>& holders_;
   const std::atomic<bool>* cancel_;
-  const std::vector<std::size_t> nearest_;
-  const FarRows far_;
-  NearMultipliers near_;
-  Eigen::VectorXd r_, along_, rest_, total_;
-  Eigen::VectorXd weights_;  ///< c d of far rows
-  double products_ = 0.0;
-  bool is_full_ = true;  ///< whether r_ is the minimum for the active rows
+  const Directions directions_;
+  VectorXd own_, distances_, offsets_;  ///< d, D, b
+  std::vector<bool> active_;
+  MatrixXd factor_;
+  Multipliers best_;
+  int factorizations_ = 0;
+  bool is_whole_ = false;  ///< whether the last step went all the way
 };
-
-using Eigen::Index;
-// A multiplier that would reduce the residual by less is left out.
-constexpr double kNoGain = 1e-12;
 
 }  // namespace
 
 Multipliers least_multipliers(const Eigen::VectorXd& gradient, const std::vector<Holder>& holders,
                               const std::atomic<bool>* cancel) {
   return NewtonSearch(gradient, holders, cancel).run();
-}
-
-using Eigen::Index;
-FarRows::FarRows(Index variables, const std::vector<Holder>& holders, std::vector<std::size_t> far,
-                 Eigen::VectorXd distances)
-    : variables_(variables),
-      holders_(holders),
-      far_(std::move(far)),
-      distances_(std::move(distances)) {
-  Index leading = 0;
-  for (const std::size_t k : far_) leading = std::max(leading, holders_[k].leading.size());
-  leading_.setZero(leading, distances_.size());
-  std::map<std::vector<Index>, std::size_t> group_of;
-  for (Index row = 0; row < distances_.size(); ++row) {
-    const Holder& holder = holders_[far_[to_index(row)]];
-    if (holder.leading.size() > 0) leading_.col(row) = holder.leading / distances_[row];
-    if (holder.is_bound) continue;
-    std::vector<Index> pattern;
-    for (const auto& other : holder.others) pattern.push_back(other.first);
-    const auto [place, is_new] = group_of.try_emplace(std::move(pattern), groups_.size());
-    if (is_new) groups_.emplace_back();
-    groups_[place->second].push_back(row);
-  }
-}
-
-Eigen::VectorXd FarRows::along(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd products = leading_.transpose() * x.head(leading_.rows());
-  for (Index row = 0; row < products.size(); ++row)
-    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others)
-      products[row] += entry / distances_[row] * x[variable];
-  return products;
-}
-
-Eigen::VectorXd FarRows::sum(const Eigen::VectorXd& p) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(variables_);
-  x.head(leading_.rows()) = leading_ * p;
-  for (Index row = 0; row < p.size(); ++row) {
-    if (p[row] == 0.0) continue;
-    for (const auto& [variable, entry] : holders_[far_[to_index(row)]].others)
-      x[variable] += entry / distances_[row] * p[row];
-  }
-  return x;
-}
-
-Eigen::MatrixXd FarRows::metric(const std::vector<bool>& active) const {
-  Eigen::VectorXd squares = Eigen::VectorXd::Ones(variables_);
-  for (std::size_t k = 0; k < far_.size(); ++k)
-    if (active[k] && holders_[far_[k]].is_bound)
-      squares[holders_[far_[k]].others[0].first] += std::pow(distance(k), -2);
-  Eigen::MatrixXd rows = squares.cwiseSqrt().asDiagonal();
-  for (const std::vector<Index>& group : groups_) append(group, active, &rows);
-  return rows;
-}
-
-/// Appends the active rows of a group, as a triangle if they are more than the variables that they
-/// read.
-void FarRows::append(const std::vector<Index>& group, const std::vector<bool>& active,
-                     Eigen::MatrixXd* rows) const {
-  std::vector<Index> chosen;
-  for (const Index row : group)
-    if (active[to_index(row)]) chosen.push_back(row);
-  if (chosen.empty()) return;
-  const auto others_of = [&](Index row) -> const auto& {
-    return holders_[far_[to_index(row)]].others;
-  };
-  const auto& pattern = others_of(chosen[0]);
-  const Index leading = leading_.rows(), columns = leading + static_cast<Index>(pattern.size());
-  Eigen::MatrixXd block(static_cast<Index>(chosen.size()), columns);
-  for (Index k = 0; k < block.rows(); ++k) {
-    const Index row = chosen[to_index(k)];
-    block.row(k).head(leading) = leading_.col(row).transpose();
-    for (std::size_t i = 0; i < pattern.size(); ++i)
-      block(k, leading + static_cast<Index>(i)) = others_of(row)[i].second / distances_[row];
-  }
-  if (block.rows() > columns) block = upper_factor(block);
-  rows->conservativeResize(rows->rows() + block.rows(), Eigen::NoChange);
-  auto added = rows->bottomRows(block.rows());
-  added.setZero();
-  added.leftCols(leading) = block.leftCols(leading);
-  for (std::size_t i = 0; i < pattern.size(); ++i)
-    added.col(pattern[i].first) = block.col(leading + static_cast<Index>(i));
-}
-
-NearMultipliers::NearMultipliers(const Eigen::VectorXd& gradient,
-                                 const std::vector<Holder>& holders,
-                                 const std::vector<std::size_t>& near,
-                                 const std::atomic<bool>* cancel)
-    : gradient_(gradient), holders_(holders), near_(near), cancel_(cancel), rest_(gradient) {
-  const auto count = static_cast<Index>(near_.size());
-  directions_.setZero(gradient_.size(), count);
-  distances_.resize(count);
-  c_.setZero(count);
-  used_.resize(near_.size());
-  for (Index k = 0; k < count; ++k) {
-    const Holder& one = holder(k);
-    directions_.col(k).head(one.leading.size()) = one.leading;
-    for (const auto& [variable, entry] : one.others) directions_(variable, k) = entry;
-    distances_[k] = one.distance;
-    used_[to_index(k)] =
-        one.any_sign || (one.is_on_bound() && directions_.col(k).dot(gradient_) > 0.0);
-  }
-}
-
-void NearMultipliers::minimize(const Eigen::MatrixXd& metric) {
-  free_.clear();
-  factor_.resize(0, 0);
-  move_to_targets(metric);
-  for (std::size_t round = 0; round < 3 * near_.size() && add_best(); ++round)
-    move_to_targets(metric);
-}
-
-Eigen::VectorXd NearMultipliers::solve(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(x.size()), part = x(free_);
-  factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(part);
-  factor_.triangularView<Eigen::Upper>().solveInPlace(part);
-  result(free_) = part;
-  return result;
-}
-
-void NearMultipliers::balance_bounds(const Eigen::VectorXd& x) {
-  const Eigen::VectorXd rest = x - held();
-  for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && holder(k).is_on_bound())
-      c_[k] = std::max(0.0, c_[k] + directions_.col(k).dot(rest));
-}
-
-/// Adds the unused multiplier that reduces the residual fastest. False if there is none.
-bool NearMultipliers::add_best() {
-  if (cancel_ && *cancel_) return false;
-  double most = kNoGain * gradient_.norm();
-  Index best = -1;
-  const Eigen::VectorXd gains = directions_.transpose() * rest_;
-  for (Index k = 0; k < gains.size(); ++k) {
-    if (used_[to_index(k)]) continue;
-    const double gain = gains[k] / directions_.col(k).norm();
-    if (!(gain > most)) continue;
-    most = gain;
-    best = k;
-  }
-  if (best < 0) return false;
-  used_[to_index(best)] = true;
-  return true;
-}
-
-/// Moves the used multipliers towards their least-squares values, dropping those that reach zero on
-/// the way.
-void NearMultipliers::move_to_targets(const Eigen::MatrixXd& metric) {
-  for (std::size_t round = 0; round <= near_.size(); ++round) {
-    const Eigen::VectorXd target = this->target(metric);
-    double fraction = 1.0;
-    for (Index k = 0; k < c_.size(); ++k)
-      if (may_block(k) && target[k] < 0.0)
-        fraction = std::min(fraction, c_[k] / (c_[k] - target[k]));
-    c_ += fraction * (target - c_);
-    bool dropped = false;
-    for (Index k = 0; k < c_.size(); ++k) {
-      if (!may_block(k) || !(target[k] < 0.0) || c_[k] > kNoGain * (1.0 + std::abs(target[k])))
-        continue;
-      c_[k] = 0.0;
-      used_[to_index(k)] = false;
-      dropped = true;
-    }
-    if (!dropped) return;
-  }
-}
-
-bool NearMultipliers::may_block(Index k) const { return used_[to_index(k)] && !holder(k).any_sign; }
-
-/// Decomposes the columns of the free variables, if they have changed.
-void NearMultipliers::factor(const Eigen::MatrixXd& metric) {
-  std::vector<bool> held(to_index(gradient_.size()), false);
-  for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && holder(k).is_on_bound())
-      held[to_index(holder(k).others[0].first)] = true;
-  std::vector<int> free;
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (!held[i]) free.push_back(static_cast<int>(i));
-  if (free == free_ && factor_.size() > 0) return;
-  free_ = std::move(free);
-  factor_ = upper_factor(metric(Eigen::all, free_));
-  ++factorizations_;
-}
-
-/// The least-squares values of the used multipliers, and 0 for the others. Sets rest_ to theirs.
-Eigen::VectorXd NearMultipliers::target(const Eigen::MatrixXd& metric) {
-  factor(metric);
-  std::vector<Index> columns;
-  for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && !holder(k).is_on_bound()) columns.push_back(k);
-  const auto size = static_cast<Index>(free_.size()), count = static_cast<Index>(columns.size());
-  Eigen::VectorXd target = Eigen::VectorXd::Zero(c_.size());
-  if (count > 0) {
-    Eigen::MatrixXd top(size, count + 1);
-    top << directions_(free_, columns), gradient_(free_);
-    factor_.triangularView<Eigen::Upper>().transpose().solveInPlace(top);
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size + count, count),
-                    right = Eigen::MatrixXd::Zero(size + count, 1);
-    A.topRows(size) = top.leftCols(count);
-    A.bottomRows(count) = Eigen::VectorXd(distances_(columns)).asDiagonal();
-    right.topRows(size) = top.rightCols(1);
-    target(columns) = least_norm(A).solve(right).col(0);
-  }
-  const Eigen::VectorXd left = gradient_ - directions_ * target;
-  rest_ = solve(left);
-  const Eigen::VectorXd missing = left - metric.transpose() * (metric * rest_);
-  for (Index k = 0; k < c_.size(); ++k)
-    if (used_[to_index(k)] && holder(k).is_on_bound()) target[k] = directions_.col(k).dot(missing);
-  return target;
 }
 
 }  // namespace codesign
