@@ -1,41 +1,63 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "math/arrays.h"
 
 namespace codesign {
 
-/// Writes numbers and texts one after another, with the bits that they have in memory. The reader
-/// must be a process of the same program on a machine of the same kind.
+template <class T>
+inline constexpr bool kIsNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Writes values one after another, with the bits that they have in memory. The reader must be a
+/// process of the same program on a machine of the same kind. A structure has a function
+/// members(bytes, x), which calls bytes(...) with its members, for the writer and the reader.
 class ByteWriter {
  public:
-  template <class T>
-  void add(T value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>,
-                  "bytes of structures may be padding");
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
-  }
-  void add_text(std::string_view text) {
-    add(static_cast<std::uint64_t>(text.size()));
-    bytes_.append(text);
-  }
-  /// A range of doubles with its size.
-  template <class Values>
-  void add_numbers(const Values& values) {
-    add(static_cast<std::uint64_t>(values.size()));
-    bytes_.append(reinterpret_cast<const char*>(values.data()),
-                  to_index(values.size()) * sizeof(double));
+  template <class... Values>
+  void operator()(const Values&... values) {
+    (put(values), ...);
   }
   std::string take() { return std::move(bytes_); }
 
  private:
+  template <class T>
+  void put(const T& value) {
+    if constexpr (kIsNumber<T>)
+      append(&value, 1);
+    else
+      members(*this, const_cast<T&>(value));
+  }
+  void put(const std::string& text) { put_all(text); }
+  void put(const std::vector<double>& values) { put_all(values); }
+  template <int Columns>
+  void put(const Eigen::Matrix<double, -1, Columns>& matrix) {
+    put(static_cast<std::uint64_t>(matrix.rows()));
+    put_all(matrix);
+  }
+  template <class T>
+  void put(const std::vector<T>& list) {
+    put(static_cast<std::uint64_t>(list.size()));
+    for (const T& one : list) put(one);
+  }
+  template <class Values>
+  void put_all(const Values& values) {
+    put(static_cast<std::uint64_t>(values.size()));
+    append(values.data(), to_index(values.size()));
+  }
+  template <class T>
+  void append(const T* data, std::size_t count) {
+    bytes_.append(reinterpret_cast<const char*>(data), count * sizeof(T));
+  }
+
   std::string bytes_;
 };
 
@@ -44,26 +66,47 @@ class ByteReader {
  public:
   explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
 
+  template <class... Values>
+  void operator()(Values&... values) {
+    (read(values), ...);
+  }
   template <class T>
   T get() {
-    T value;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    T value{};
+    read(value);
     return value;
-  }
-  std::string get_text() { return std::string(take(count(1))); }
-  /// Numbers into a container that can be constructed from its size: a vector of the standard
-  /// library or of Eigen.
-  template <class Values>
-  Values get_numbers() {
-    const std::size_t size = count(sizeof(double));
-    Values values(static_cast<decltype(values.size())>(size));
-    const std::string_view bytes = take(size * sizeof(double));
-    if (size > 0) std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
   }
   bool at_end() const { return rest_.empty(); }
 
  private:
+  template <class T>
+  void read(T& value) {
+    if constexpr (kIsNumber<T>)
+      copy(&value, 1);
+    else
+      members(*this, value);
+  }
+  void read(std::string& text) {
+    text.resize(count(1));
+    copy(text.data(), text.size());
+  }
+  void read(std::vector<double>& values) {
+    values.resize(count(sizeof(double)));
+    copy(values.data(), values.size());
+  }
+  template <int Columns>
+  void read(Eigen::Matrix<double, -1, Columns>& matrix) {
+    const auto rows = get<std::uint64_t>();
+    const std::size_t size = count(sizeof(double));
+    matrix.resize(to_signed(rows), rows == 0 ? Columns == 1 : to_signed(size / rows));
+    if (to_index(matrix.size()) != size) fail();
+    copy(matrix.data(), size);
+  }
+  template <class T>
+  void read(std::vector<T>& list) {
+    list.clear();
+    for (std::size_t left = count(1); left > 0; --left) list.push_back(get<T>());
+  }
   /// The number of elements that follow. The check keeps a damaged number from reserving all
   /// memory.
   std::size_t count(std::size_t size_of_one) {
@@ -71,11 +114,12 @@ class ByteReader {
     if (size > rest_.size() / size_of_one) fail();
     return to_index(size);
   }
-  std::string_view take(std::size_t size) {
+  template <class T>
+  void copy(T* values, std::size_t count) {
+    const std::size_t size = count * sizeof(T);
     if (size > rest_.size()) fail();
-    const std::string_view taken = rest_.substr(0, size);
+    if (size > 0) std::memcpy(values, rest_.data(), size);
     rest_.remove_prefix(size);
-    return taken;
   }
   [[noreturn]] static void fail() {
     throw std::runtime_error("a message between processes is damaged: it ends too early");
