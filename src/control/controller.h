@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "control/reference.h"
+#include "control/shaped_input.h"
 #include "control/signal.h"
 #include "description/motion_study.h"
 #include "forces/control_law.h"

@@ -9,6 +9,7 @@
 
 #include "codegen/derivatives.h"
 #include "control/reference.h"
+#include "control/shaped_input.h"
 #include "equations/equation_variant.h"
 #include "math/arrays.h"
 

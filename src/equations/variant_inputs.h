@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "control/reference.h"
+#include "control/shaped_input.h"
 #include "equations/equation_variant.h"
 #include "equations/transposed_code.h"
 #include "math/scalar.h"

@@ -54,7 +54,7 @@ double commanded_speed(const CompiledSystem& system, double t) {
       return std::numeric_limits<double>::infinity();
     if (!is_commanded(controller.setpoint)) continue;
     const ReferenceMotion<double> asked =
-        Reference<double>::commanded_at(*controller.setpoint.live.function, t);
+        LiveReference<double>::commanded_at(*controller.setpoint.live.function, t);
     if (reads(system.controllers()[c].input, kVelocities))
       largest = std::max(largest, std::abs(asked.value));
     if (reads(system.controllers()[c].input, kPositions))
