@@ -3,12 +3,10 @@
 
 #include <cstddef>
 
+#include "description/objective_part.h"
 #include "math/arrays.h"
 
 namespace codesign {
-
-/// The two sums of the objective, theory (21): the integrand g and the terminal terms w.
-enum class ObjectivePart { kIntegral, kTerminal };
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {

@@ -68,20 +68,17 @@ std::unique_ptr<Integrator> make_integrator(const CompiledSystem& system) {
 namespace {
 
 /// A scale of a loss that the design makes impossible; empty if there is none.
-std::string find_impossible(const std::vector<ResolvedTerm>& terms,
-                            const std::vector<double>& scales, const std::string& list) {
-  for (std::size_t k = 0; k < terms.size(); ++k)
-    if (terms[k].loss->has_scale && !(scales[k] > 0.0))
-      return "objective." + list + "[" + std::to_string(k) + "].scale is " + readable(scales[k]) +
-             ", which must be above 0";
-  return "";
-}
-
 std::string find_impossible_scale(const CompiledSystem& system, const Design<double>& design) {
-  const std::string fault = find_impossible(system.integral(), design.integral.scales,
-                                            system.study().postures > 0 ? "sum" : "integral");
-  return fault.empty() ? find_impossible(system.terminal(), design.terminal.scales, "terminal")
-                       : fault;
+  for (const ObjectivePart part : {ObjectivePart::kIntegral, ObjectivePart::kTerminal}) {
+    const bool terminal = part == ObjectivePart::kTerminal;
+    const std::vector<ResolvedTerm>& terms = terminal ? system.terminal() : system.integral();
+    const std::vector<double>& scales = (terminal ? design.terminal : design.integral).scales;
+    for (std::size_t k = 0; k < terms.size(); ++k)
+      if (terms[k].loss->has_scale && !(scales[k] > 0.0))
+        return term_name(system.study(), part, k) + ".scale is " + readable(scales[k]) +
+               ", which must be above 0";
+  }
+  return "";
 }
 
 }  // namespace

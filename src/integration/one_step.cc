@@ -114,11 +114,26 @@ double OneStep<T>::error(double relative_tolerance, double absolute_tolerance) c
 }
 
 template <class T>
+T OneStep<T>::next_psi() const {
+  T end = psi_;
+  for (std::size_t j = 0; j < m_.count(); ++j)
+    end += T(m_.tableau->weights[j]) * m_.increments[j][m_.at.psi()];
+  return end;
+}
+
+template <class T>
+double OneStep<T>::psi_error(double relative_tolerance, double absolute_tolerance) const {
+  const auto size = [](const T& value) { return std::abs(value_of(value)); };
+  const double scale =
+      absolute_tolerance + relative_tolerance * std::max(size(psi_), size(next_psi()));
+  return size(method_->estimate()[m_.at.psi()]) / scale;
+}
+
+template <class T>
 bool OneStep<T>::accept() {
   previous_ = m_.state;
   previous_psi_ = psi_;
-  for (std::size_t j = 0; j < m_.count(); ++j)
-    psi_ += T(m_.tableau->weights[j]) * m_.increments[j][m_.at.psi()];
+  psi_ = next_psi();
   return finish(true);
 }
 

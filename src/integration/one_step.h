@@ -57,6 +57,9 @@ class OneStep {
   /// relative max(|y|, |y_1|)) over (q, v, s), with |y| of velocities as in RateSizes. A mean would
   /// hide one fast joint among many bodies at rest.
   double error(double relative_tolerance, double absolute_tolerance) const;
+  /// The same of psi, the objective's integral. Where little moves, or a given motion does not feel
+  /// its effort, of which the objective is made, steps could go over much of it.
+  double psi_error(double relative_tolerance, double absolute_tolerance) const;
   /// The factor by which the method's own estimate counts.
   double caution() const { return method_->caution(); }
   /// Accepts the last attempt: linearizes at its end and projects. False if the augmented matrix is
@@ -121,6 +124,8 @@ class OneStep {
   /// Computes what the end of a step needs, and projects. @param is_last as of StepMethod::finish()
   bool finish(bool is_last);
   bool project();
+  /// psi at the end of the last attempt.
+  T next_psi() const;
 
   StepMemory<T> m_;
   const RateSizes rate_sizes_;

@@ -12,22 +12,6 @@ namespace codesign {
 
 namespace {
 
-/// The scaled error of the objective's integral over the last attempt, as OneStep::error().
-/// Where little moves, or a given motion does not feel its effort, of which the objective is made,
-/// steps could go over much of it.
-double psi_error(const OneStep<double>& step, const SolverOptions& options) {
-  const RosenbrockTableau& tableau = step.tableau();
-  const int psi = step.increment_layout().psi();
-  double end = step.psi(), estimate = 0.0;
-  for (std::size_t j = 0; j < to_index(tableau.stages); ++j) {
-    const double increment = step.increments()[j][psi];
-    end += tableau.weights[j] * increment;
-    estimate = tableau.is_explicit() ? estimate + tableau.estimate[j] * increment : increment;
-  }
-  const double size = std::max(std::abs(step.psi()), std::abs(end));
-  return std::abs(estimate) / (options.absolute_tolerance + options.relative_tolerance * size);
-}
-
 /// The condition that is to end a run holds where it begins.
 Status begins_at_end(const MotionStudy& study) {
   const InputError error({study.until->where, "until", "the condition is true at the start",
@@ -290,8 +274,9 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
       continue;
     }
     const double kept = proposal_;
-    double error = step_.error(options_.relative_tolerance, options_.absolute_tolerance);
-    error = std::max(error, psi_error(step_, options_));
+    double error =
+        std::max(step_.error(options_.relative_tolerance, options_.absolute_tolerance),
+                 step_.psi_error(options_.relative_tolerance, options_.absolute_tolerance));
     if (error <= 1.0 && !is_stable(h)) continue;
     if (error <= 1.0) error = std::max(error, further_error(before_accept));
     if (!controller_.accept(h, error, &proposal_)) {

@@ -154,12 +154,12 @@ void check_squares(const Study& study, const OptimizerOptions& options, RobustMe
         "depends on the design";
     throw InputError(fault);
   }
-  const auto check = [&](const std::vector<ObjectiveTerm>& terms, const std::string& list) {
+  const auto check = [&](const std::vector<ObjectiveTerm>& terms, ObjectivePart part) {
     for (std::size_t k = 0; k < terms.size(); ++k)
-      check_square(terms[k], "objective." + list + "[" + std::to_string(k) + "]", fault.allowed);
+      check_square(terms[k], term_name(study, part, k), fault.allowed);
   };
-  check(study.integral, study.postures > 0 ? "sum" : "integral");
-  check(study.terminal, "terminal");
+  check(study.integral, ObjectivePart::kIntegral);
+  check(study.terminal, ObjectivePart::kTerminal);
 }
 
 std::vector<std::string> algorithms_for(const Study& study, const OptimizerOptions& options,

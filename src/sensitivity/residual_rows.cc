@@ -41,8 +41,7 @@ Status ResidualRows::check_squares(ObjectivePart part) const {
   for (std::size_t k = 0; k < weights.size(); ++k) {
     const bool is_square = terms[k].loss->is_square();
     if (is_square && weights[k] >= 0.0) continue;
-    const std::string term = std::string("objective.") + (terminal ? "terminal[" : "integral[") +
-                             std::to_string(k) + "]";
+    const std::string term = term_name(system_.study(), part, k);
     if (is_square)
       return {StatusCode::kInvalidDesign, 0.0,
               "the weight of " + term + " is " + to_decimal(weights[k]) +

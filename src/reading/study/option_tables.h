@@ -21,6 +21,13 @@ struct OptionRange {
   const char* fault = nullptr;    ///< the message for another value; null: "KEY out of range"
   const char* allowed = nullptr;  ///< the allowed values in words; null: in_words() says them
 
+  /// The same without its ends.
+  constexpr OptionRange without_ends() const { return {least, most, false, false, fault, allowed}; }
+  /// The same with its own words for a value outside it.
+  constexpr OptionRange saying(const char* own_fault, const char* own_allowed = nullptr) const {
+    return {least, most, has_least, has_most, own_fault, own_allowed ? own_allowed : allowed};
+  }
+
   bool is_bounded() const { return most < std::numeric_limits<double>::infinity(); }
   bool holds(double value) const {
     return (has_least ? value >= least : value > least) &&
@@ -31,16 +38,12 @@ struct OptionRange {
 };
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-constexpr OptionRange kAboveZero{0.0, kUnbounded, false}, kZeroOrMore{0.0, kUnbounded},
-    kProperFraction{0.0, 1.0, false, false};
-constexpr OptionRange kCount{1.0, kUnbounded, true, true, "count out of range"};
-constexpr OptionRange kPositive{0.0, kUnbounded, false, true, "not above zero"};
-constexpr OptionRange kTime{0.0,
-                            kUnbounded,
-                            true,
-                            true,
-                            "number out of range",
-                            "a positive number of seconds, or 0 for none"};
+constexpr OptionRange kZeroOrMore{0.0, kUnbounded},
+    kAboveZero = kZeroOrMore.without_ends(), kProperFraction = OptionRange{0.0, 1.0}.without_ends();
+constexpr OptionRange kCount = OptionRange{1.0, kUnbounded}.saying("count out of range");
+constexpr OptionRange kPositive = kAboveZero.saying("not above zero");
+constexpr OptionRange kTime =
+    kZeroOrMore.saying("number out of range", "a positive number of seconds, or 0 for none");
 constexpr OptionRange kSeed{0.0, std::numeric_limits<int>::max()};
 constexpr OptionRange tolerance_from(double least) {
   return {least, 1.0, true, false, "tolerance out of range"};
@@ -83,8 +86,7 @@ void visit_options(const Visit& visit, SolverOptions* of) {
   visit("maximum_step", kTime, of->maximum_step);
   visit("maximum_steps", kCount, of->maximum_steps);
   visit("maximum_speed",
-        OptionRange{0.0, kUnbounded, true, true, kTime.fault,
-                    "a positive speed in m/s and rad/s, or 0: chosen"},
+        kTime.saying(kTime.fault, "a positive speed in m/s and rad/s, or 0: chosen"),
         of->maximum_speed);
   visit("closure_tolerance", kZeroOrMore, of->closure_tolerance);
   visit("coordinates", kCoordinatesNames, of->coordinates);
@@ -126,8 +128,8 @@ void visit_options(const Visit& visit, EngineOptions* of) {
 
 template <class Visit>
 void visit_options(const Visit& visit, FilterOptions* of) {
-  constexpr OptionRange kCutoff{
-      0.0, kUnbounded, true, true, "a cutoff is a frequency", "more than 0 Hz, or 0 for no filter"};
+  constexpr OptionRange kCutoff =
+      kZeroOrMore.saying("a cutoff is a frequency", "more than 0 Hz, or 0 for no filter");
   visit("cutoff", kCutoff, of->cutoff);
   visit("residual_cutoff", kCutoff, of->residual_cutoff);
   visit("order", OptionRange{1, 8}, of->order);
@@ -138,16 +140,14 @@ template <class Visit>
 void visit_options(const Visit& visit, LossOptions* of) {
   visit("type", of->kind);
   visit("scale",
-        OptionRange{0.0, kUnbounded, false, true, kPositive.fault,
-                    "more than 0, in units of the residuals' spread"},
+        kPositive.saying(kPositive.fault, "more than 0, in units of the residuals' spread"),
         of->scale);
 }
 
 template <class Visit>
 void visit_options(const Visit& visit, IntervalOptions* of) {
   visit("level",
-        OptionRange{0.0, 1.0, false, false, "the level is a probability",
-                    "between 0 and 1, such as 0.95"},
+        kProperFraction.saying("the level is a probability", "between 0 and 1, such as 0.95"),
         of->level);
   visit("noise", kNoiseNames, of->noise);
   visit("lag", OptionRange{1, std::numeric_limits<int>::max()}, of->lag);

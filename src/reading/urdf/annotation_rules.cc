@@ -11,18 +11,38 @@ namespace {
 
 using Names = std::vector<std::string>;
 
+/// An ElementRule whose parts are set by name; those that are not named are empty.
+class Rule {
+ public:
+  explicit Rule(std::string path) { rule_.path = std::move(path); }
+  Rule& strict(bool is_strict = true) { return set(&ElementRule::strict, is_strict); }
+  Rule& plain(const Names& names) { return set(&ElementRule::plain, names); }
+  Rule& twins(const Names& names) { return set(&ElementRule::twins, names); }
+  Rule& own(const Names& names) { return set(&ElementRule::own, names); }
+  Rule& children(const Names& names) { return set(&ElementRule::children, names); }
+  operator ElementRule() const { return rule_; }  // NOLINT(google-explicit-constructor)
+
+ private:
+  template <class Part>
+  Rule& set(Part ElementRule::*part, const Part& value) {
+    rule_.*part = value;
+    return *this;
+  }
+  ElementRule rule_;
+};
+
 void add_shapes(const std::string& path, std::vector<ElementRule>* rules) {
-  rules->push_back({path + "/origin", false, {}, {"xyz", "rpy"}, {}, {}});
-  rules->push_back({path + "/geometry/box", false, {}, {"size"}, {}, {}});
-  rules->push_back({path + "/geometry/cylinder", false, {}, {"radius", "length"}, {}, {}});
-  rules->push_back({path + "/geometry/sphere", false, {}, {"radius"}, {}, {}});
+  rules->push_back(Rule(path + "/origin").twins({"xyz", "rpy"}));
+  rules->push_back(Rule(path + "/geometry/box").twins({"size"}));
+  rules->push_back(Rule(path + "/geometry/cylinder").twins({"radius", "length"}));
+  rules->push_back(Rule(path + "/geometry/sphere").twins({"radius"}));
 }
 
 /// `<predecessor link>` and `<successor link>` with an `<origin>`.
 void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
   for (const char* end : {"/predecessor", "/successor"}) {
-    rules->push_back({path + end, true, {"link"}, {}, {}, {"origin"}});
-    rules->push_back({path + end + "/origin", true, {}, {"xyz", "rpy"}, {}, {}});
+    rules->push_back(Rule(path + end).strict().plain({"link"}).children({"origin"}));
+    rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
   }
 }
 
@@ -44,87 +64,72 @@ Names actuator_attributes() {
 }
 
 void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRule>* rules) {
-  rules->push_back({path + "/axis", strict, {}, {"xyz"}, {}, {}});
-  rules->push_back({path + "/dynamics", strict, {}, {"damping", "friction"}, {}, {}});
-  rules->push_back({path + "/codesign:friction",
-                    true,
-                    {"model", "transverse_axis"},
-                    friction_attributes(),
-                    {},
-                    {}});
-  rules->push_back({path + "/codesign:torsion_spring",
-                    true,
-                    {},
-                    {"stiffness", "damping", "free_position"},
-                    {},
-                    {}});
-  rules->push_back({path + "/codesign:actuator", true, {"model"}, actuator_attributes(), {}, {}});
+  rules->push_back(Rule(path + "/axis").strict(strict).twins({"xyz"}));
+  rules->push_back(Rule(path + "/dynamics").strict(strict).twins({"damping", "friction"}));
+  rules->push_back(Rule(path + "/codesign:friction")
+                       .strict()
+                       .plain({"model", "transverse_axis"})
+                       .twins(friction_attributes()));
+  rules->push_back(Rule(path + "/codesign:torsion_spring")
+                       .strict()
+                       .twins({"stiffness", "damping", "free_position"}));
+  rules->push_back(
+      Rule(path + "/codesign:actuator").strict().plain({"model"}).twins(actuator_attributes()));
 }
 
 void add_link_rules(std::vector<ElementRule>* rules) {
-  rules->push_back({"robot/link/inertial", false, {}, {}, {"density", "from", "inertia"}, {}});
-  rules->push_back({"robot/link/inertial/origin", false, {}, {"xyz", "rpy"}, {}, {}});
-  rules->push_back({"robot/link/inertial/mass", false, {}, {"value"}, {}, {}});
-  rules->push_back({"robot/link/inertial/inertia",
-                    false,
-                    {},
-                    {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"},
-                    {},
-                    {}});
+  rules->push_back(Rule("robot/link/inertial").own({"density", "from", "inertia"}));
+  rules->push_back(Rule("robot/link/inertial/origin").twins({"xyz", "rpy"}));
+  rules->push_back(Rule("robot/link/inertial/mass").twins({"value"}));
+  rules->push_back(
+      Rule("robot/link/inertial/inertia").twins({"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}));
   add_shapes("robot/link/visual", rules);
   add_shapes("robot/link/collision", rules);
 }
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
-  rules.push_back({"robot",
-                   false,
-                   {},
-                   {},
-                   {},
-                   {"codesign:parameter", "codesign:set", "codesign:spring_damper"}});
   rules.push_back(
-      {"robot/codesign:parameter", true, {"name", "value", "lower", "upper", "unit"}, {}, {}, {}});
-  rules.push_back({"robot/codesign:set", true, {"name", "value", "lower", "upper"}, {}, {}, {}});
-  rules.push_back({"robot/codesign:spring_damper",
-                   true,
-                   {"name"},
-                   {"stiffness", "damping", "free_length"},
-                   {},
-                   {"predecessor", "successor"}});
+      Rule("robot").children({"codesign:parameter", "codesign:set", "codesign:spring_damper"}));
+  rules.push_back(
+      Rule("robot/codesign:parameter").strict().plain({"name", "value", "lower", "upper", "unit"}));
+  rules.push_back(Rule("robot/codesign:set").strict().plain({"name", "value", "lower", "upper"}));
+  rules.push_back(Rule("robot/codesign:spring_damper")
+                      .strict()
+                      .plain({"name"})
+                      .twins({"stiffness", "damping", "free_length"})
+                      .children({"predecessor", "successor"}));
   add_ends("robot/codesign:spring_damper", &rules);
 
   add_link_rules(&rules);
 
-  rules.push_back({"robot/joint",
-                   false,
-                   {},
-                   {},
-                   {"type"},
-                   {"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
-  rules.push_back({"robot/joint/origin", false, {}, {"xyz", "rpy"}, {}, {}});
   rules.push_back(
-      {"robot/joint/limit", false, {}, {"lower", "upper", "effort", "velocity"}, {}, {}});
-  rules.push_back({"robot/joint/mimic", false, {}, {"multiplier", "offset"}, {}, {}});
+      Rule("robot/joint")
+          .own({"type"})
+          .children({"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}));
+  rules.push_back(Rule("robot/joint/origin").twins({"xyz", "rpy"}));
+  rules.push_back(Rule("robot/joint/limit").twins({"lower", "upper", "effort", "velocity"}));
+  rules.push_back(Rule("robot/joint/mimic").twins({"multiplier", "offset"}));
   add_joint_parts("robot/joint", false, &rules);
 
-  rules.push_back(
-      {"robot/loop",
-       true,
-       {"name", "type"},
-       {},
-       {"out_of_plane"},
-       {"predecessor", "successor", "axis", "dynamics", "codesign:second_axis", "codesign:length",
-        "codesign:friction", "codesign:torsion_spring", "codesign:actuator"}});
+  rules.push_back(Rule("robot/loop")
+                      .strict()
+                      .plain({"name", "type"})
+                      .own({"out_of_plane"})
+                      .children({"predecessor", "successor", "axis", "dynamics",
+                                 "codesign:second_axis", "codesign:length", "codesign:friction",
+                                 "codesign:torsion_spring", "codesign:actuator"}));
   add_ends("robot/loop", &rules);
   add_joint_parts("robot/loop", true, &rules);
-  rules.push_back({"robot/loop/codesign:second_axis", true, {}, {"xyz"}, {}, {}});
-  rules.push_back({"robot/loop/codesign:length", true, {}, {"value"}, {}, {}});
+  rules.push_back(Rule("robot/loop/codesign:second_axis").strict().twins({"xyz"}));
+  rules.push_back(Rule("robot/loop/codesign:length").strict().twins({"value"}));
 
-  rules.push_back(
-      {"robot/coupling", true, {"name", "type"}, {}, {}, {"predecessor", "successor", "ratio"}});
+  rules.push_back(Rule("robot/coupling")
+                      .strict()
+                      .plain({"name", "type"})
+                      .children({"predecessor", "successor", "ratio"}));
   add_ends("robot/coupling", &rules);
-  rules.push_back({"robot/coupling/ratio", true, {}, {"value"}, {}, {}});
+  rules.push_back(Rule("robot/coupling/ratio").strict().twins({"value"}));
   return rules;
 }
 
