@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "description/objective_part.h"
 #include "description/study.h"
 #include "text/number_text.h"
 

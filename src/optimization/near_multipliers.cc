@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double kLeastDistances[] = {1e-2, 1e-4, 1e-6, 1e-6};
 constexpr int kMostRounds = 100;     // of Newton's method, which takes about five
 constexpr int kRefinements = 2;      // each reduces the rounding of the multipliers by 1e-4
-constexpr double kRounding = 1e-20;  // of |g|^2, in slopes
+constexpr double kSlopeRounding = 1e-20;  // of |g|^2, in slopes
 constexpr double kWholeStep = 1e-12;
 
 /// The directions of all holders, one after another. Rows that read the same variables form a
@@ -187,7 +187,7 @@ class NewtonSearch {
       if (round > 0 && is_whole_ && before == active_) return;
       const VectorXd p = target() - r, change = directions_.along(p).cwiseQuotient(distances_);
       const double slope = p.dot(r - gradient_) + of_active(along).dot(change);
-      if (!(slope < -kRounding * gradient_.squaredNorm())) return;
+      if (!(slope < -kSlopeRounding * gradient_.squaredNorm())) return;
       const double step = least_along(along, change, slope, p.squaredNorm());
       is_whole_ = std::abs(step - 1.0) < kWholeStep;
       r += step * p;

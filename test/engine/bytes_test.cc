@@ -7,25 +7,40 @@
 #include <vector>
 
 namespace codesign {
+
+/// A structure as messages have them.
+struct Sample {
+  std::string name;
+  std::vector<double> values;
+  bool is_last = false;
+};
+template <class Bytes>
+void members(Bytes& bytes, Sample& sample) {
+  bytes(sample.name, sample.values, sample.is_last);
+}
+
 namespace {
 
 TEST(Bytes, WhatIsWrittenIsRead) {
+  const std::vector<double> numbers{1.0, std::numeric_limits<double>::lowest()};
+  const Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(3, 2);
   ByteWriter writer;
-  writer.add(std::uint8_t{200});
-  writer.add(-1.5);
-  writer.add_text("a\0b");
-  writer.add_text(std::string("a\0b", 3));
-  writer.add_numbers(std::vector<double>{1.0, std::numeric_limits<double>::lowest()});
-  writer.add_numbers(std::vector<double>{});
-  writer.add(true);
+  writer(std::uint8_t{200}, -1.5, std::string("a\0b", 3), numbers, std::vector<double>{}, matrix,
+         Eigen::MatrixXd(0, 4), std::vector<Sample>{{"one", numbers, false}, {"", {}, true}}, true);
   const std::string bytes = writer.take();
   ByteReader reader(bytes);
   EXPECT_EQ(reader.get<std::uint8_t>(), 200);
   EXPECT_EQ(reader.get<double>(), -1.5);
-  EXPECT_EQ(reader.get_text(), "a");
-  EXPECT_EQ(reader.get_text().size(), 3U);
-  EXPECT_EQ(reader.get_numbers<std::vector<double>>()[1], std::numeric_limits<double>::lowest());
-  EXPECT_TRUE(reader.get_numbers<std::vector<double>>().empty());
+  EXPECT_EQ(reader.get<std::string>(), std::string("a\0b", 3));
+  EXPECT_EQ(reader.get<std::vector<double>>(), numbers);
+  EXPECT_TRUE(reader.get<std::vector<double>>().empty());
+  EXPECT_EQ(reader.get<Eigen::MatrixXd>(), matrix);
+  EXPECT_EQ(reader.get<Eigen::MatrixXd>().size(), 0);
+  const auto samples = reader.get<std::vector<Sample>>();
+  ASSERT_EQ(samples.size(), 2U);
+  EXPECT_EQ(samples[0].name, "one");
+  EXPECT_EQ(samples[0].values, numbers);
+  EXPECT_TRUE(samples[1].is_last);
   EXPECT_FALSE(reader.at_end());
   EXPECT_TRUE(reader.get<bool>());
   EXPECT_TRUE(reader.at_end());
@@ -34,10 +49,11 @@ TEST(Bytes, WhatIsWrittenIsRead) {
 
 TEST(Bytes, ASizeBeyondTheEndReservesNothing) {
   ByteWriter writer;
-  writer.add(std::numeric_limits<std::uint64_t>::max());
+  writer(std::numeric_limits<std::uint64_t>::max());
   const std::string bytes = writer.take();
-  EXPECT_THROW(ByteReader(bytes).get_text(), std::runtime_error);
-  EXPECT_THROW(ByteReader(bytes).get_numbers<std::vector<double>>(), std::runtime_error);
+  EXPECT_THROW(ByteReader(bytes).get<std::string>(), std::runtime_error);
+  EXPECT_THROW(ByteReader(bytes).get<std::vector<double>>(), std::runtime_error);
+  EXPECT_THROW(ByteReader(bytes).get<std::vector<Sample>>(), std::runtime_error);
 }
 
 }  // namespace

@@ -105,12 +105,11 @@ TEST(Multipliers, OfManyRowsTakeFewMatricesOfTheVariables) {
 }
 
 // Rows of an unstable start, all of which are near by the length of their directions.
-TEST(Multipliers, OfManyNearRowsAreBoundedInNumber) {
+TEST(Multipliers, OfManyNearRowsTakeFewMatrices) {
   Rows rows(4, 0, 3000, 0.1, 2);
   for (Holder& holder : rows.holders)
     if (!holder.is_bound) holder.leading *= 1e9;
   const Multipliers found = least_multipliers(rows.gradient, rows.holders, nullptr);
-  EXPECT_LT(std::count(found.near.begin(), found.near.end(), true), 4 * 10 + 6);
   EXPECT_LT(found.factorizations, 100);
   EXPECT_LE(found.residual, rows.gradient.norm());
 }
