@@ -70,5 +70,15 @@ TEST(StudyReader, RefusesADurationThatIsNone) {
   EXPECT_EQ(fault_in("duration: -1" + objective).allowed, "more than 0 s");
 }
 
+TEST(StudyReader, ABaseIsFixedOrFloats) {
+  const auto floats = [](const std::string& text) { return has_floating_base({"s.yaml", text}); };
+  EXPECT_TRUE(floats("duration: 1\nbase: floating"));
+  EXPECT_TRUE(floats("duration: 1\nbase: \"float\\x69ng\"")) << "spelled with an escape";
+  EXPECT_FALSE(floats("duration: 1\nbase: fixed"));
+  EXPECT_FALSE(floats("duration: 1 # not floating"));
+  const std::string objective = "\nobjective: {terminal: [{signal: crank_joint/velocity}]}";
+  expect_fault("duration: 1\nbase: swimming" + objective, "base", "unknown", 2);
+}
+
 }  // namespace
 }  // namespace codesign
