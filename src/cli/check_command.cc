@@ -7,7 +7,8 @@
 #include "cli/report.h"
 #include "description/study.h"
 #include "integration/simulation_of.h"
-#include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "jobs/run_recorder.h"
 #include "jobs/setpoint_bounds.h"
 #include "mechanism/machine_numbers.h"
@@ -106,7 +107,7 @@ int check(const Arguments& arguments, const Console& console) {
   Json object;
   object["model"] = robot_of(problem).name;
   object["parameters"] = parameters_json(problem, parameters);
-  if (status.ok()) object["counts"] = to_json(counts);
+  if (status.ok()) object["counts"] = record_json(counts);
   object["limits_exceeded"] = to_json(crossings);
   object["machine_numbers"] = to_json(numbers);
   if (study_of(problem).identification) object["recordings"] = to_json(recordings);

@@ -14,6 +14,8 @@
 #include "jobs/csv_writer.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
@@ -42,10 +44,7 @@ const char* name_of(ProfileEnd end) {
 }
 
 Json number_json(const IdentifiedNumber& number) {
-  Json object = {{"value", number.value}, {"start", number.start}, {"unit", number.unit}};
-  object["determined"] = number.is_determined;
-  object["on_bound"] = number.is_on_bound;
-  object["deviation"] = number.is_on_bound ? Json() : Json(number.deviation);
+  Json object = record_json(number);
   object["interval"] = number.is_on_bound ? Json() : Json::array({number.low, number.high});
   if (number.profile) {
     const ProfileInterval& profile = *number.profile;
@@ -72,17 +71,10 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
 
 Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
   Json joints = Json::object();
-  for (const OutputFit& fit : fits)
-    joints[fit.joint] = {{"recorded_rms", fit.recorded},
-                         {"start_rms", fit.start},
-                         {"rms", fit.rms},
-                         {"worst", fit.worst},
-                         {"explained", fit.explained},
-                         {"whiteness",
-                          {{"ljung_box", fit.whiteness.statistic},
-                           {"lags", fit.whiteness.lags},
-                           {"probability", fit.whiteness.probability},
-                           {"first_correlation", fit.whiteness.first_correlation}}}};
+  for (const OutputFit& fit : fits) {
+    joints[fit.joint] = record_json(fit);
+    joints[fit.joint]["whiteness"] = record_json(fit.whiteness);
+  }
   return {{"samples", samples}, {"joints", std::move(joints)}};
 }
 
@@ -180,12 +172,7 @@ std::string of_the_study(const IdentificationResult& result,
 }  // namespace
 
 Json identification_json(const Problem& problem, const IdentificationResult& result) {
-  Json object;
-  object["termination"] = result.termination;
-  object["evaluations"] = result.evaluations;
-  object["failed_evaluations"] = result.failed_evaluations;
-  object["iterations"] = result.iterations;
-  object["cpu_seconds"] = result.cpu_seconds;
+  Json object = record_json(result);
   if (result.numbers.empty()) return object;
   object["parameters"] = parameters_json(problem, result.parameters);
   Json names = Json::array();
@@ -199,12 +186,7 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   object["lag"] = result.lag;
   object["rank"] = result.rank;
   object["undetermined"] = result.undetermined;
-  object["combinations"] = Json::array();
-  for (const BaseParameter& of : result.combinations)
-    object["combinations"].push_back({{"expression", of.expression},
-                                      {"value", of.value},
-                                      {"deviation", of.deviation},
-                                      {"interval", {of.low, of.high}}});
+  object["combinations"] = records_json(result.combinations);
   object["names"] = std::move(names);
   object["covariance"] = rows_json(result.covariance);
   object["correlation"] = rows_json(correlation_of(result.covariance));

@@ -6,6 +6,8 @@
 
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/version.h"
 #include "problem/load_problem.h"
@@ -15,8 +17,8 @@
 namespace codesign {
 namespace {
 
-// 2: each line has its checksum.
-constexpr int kFormat = 2;
+// 2: each line has its checksum. 3: statistics and events have the names of their fields.
+constexpr int kFormat = 3;
 constexpr const char* kBegin = "{\"journal\":";
 
 /// A key of the header with its name in messages.
@@ -64,15 +66,8 @@ std::string file_texts(const Problem& problem) {
   return text;
 }
 
-/// A double without loss; JSON has no numbers for infinity and NaN.
-Json exact(double value) { return std::isfinite(value) ? Json(value) : Json(to_decimal(value)); }
-
-double number_of(const Json& value) {
-  if (!value.is_string()) return value.get<double>();
-  const std::optional<double> number = parse_number(value.get<std::string>());
-  if (!number) throw std::invalid_argument("not a number: " + value.get<std::string>());
-  return *number;
-}
+/// A double without loss.
+Json exact(double value) { return number_json<NonFinite::kText>(value); }
 
 template <class Values>
 Json numbers_json(const Values& values) {
@@ -83,7 +78,7 @@ Json numbers_json(const Values& values) {
 
 std::vector<double> numbers_of(const Json& array) {
   std::vector<double> values;
-  for (const Json& value : array) values.push_back(number_of(value));
+  for (const Json& value : array) values.push_back(to_number(value));
   return values;
 }
 
@@ -136,48 +131,15 @@ StatusCode code_of(const std::string& name) {
   }
 }
 
-Json statistics_json(const Statistics& statistics) {
-  const auto& [steps, rejected, seconds, drift, energy, explicit_steps] = statistics;
-  return Json::array(
-      {steps, rejected, exact(seconds), exact(drift), exact(energy), explicit_steps});
-}
-
-// The first journals with a checksum per line have no explicit steps.
-Statistics statistics_of(const Json& array) {
-  constexpr std::size_t kOldSize = 5;
-  return {array.at(0).get<std::int64_t>(),
-          array.at(1).get<std::int64_t>(),
-          number_of(array.at(2)),
-          number_of(array.at(3)),
-          number_of(array.at(4)),
-          array.size() > kOldSize ? array.at(kOldSize).get<std::int64_t>() : 0};
-}
-
-Warnings warnings_of(const Json& array) {
-  Warnings warnings;
-  for (const Json& one : array)
-    warnings.push_back({one.at("code").get<std::string>(),
-                        one.at("message").get<std::string>(),
-                        {one.at("file").get<std::string>(), one.at("line").get<int>()}});
-  return warnings;
-}
-
 Json events_json(const Events& events) {
-  Json list = Json::array();
-  for (const auto& [time, element, object, expression, rising, jump] : events.list)
-    list.push_back(Json::array({exact(time), element, object, expression, rising, jump}));
-  return {{"list", std::move(list)}, {"count", events.count}, {"order", events.order}};
+  return {{"list", records_json<NonFinite::kText>(events.list)},
+          {"count", events.count},
+          {"order", events.order}};
 }
 
 Events events_of(const Json& object) {
-  Events events;
-  for (const Json& one : object.at("list"))
-    events.list.push_back({number_of(one.at(0)), one.at(1).get<std::string>(),
-                           one.at(2).get<std::string>(), one.at(3).get<std::string>(),
-                           one.at(4).get<bool>(), one.at(5).get<bool>()});
-  events.count = object.at("count").get<std::int64_t>();
-  events.order = object.at("order").get<std::string>();
-  return events;
+  return {read_records<Event>(object.at("list")), object.at("count").get<std::int64_t>(),
+          object.at("order").get<std::string>()};
 }
 
 }  // namespace
@@ -241,7 +203,7 @@ std::string to_line(const EvaluationRecord& record) {
   if (status.ok() && with_gradient) line["gradient"] = numbers_json(gradient);
   if (status.ok() && with_root) line["root"] = root_json(root);
   if (status.ok() && extremes.values.size() > 0) line["extremes"] = extremes_json(extremes);
-  line["statistics"] = statistics_json(statistics);
+  line["statistics"] = record_json<NonFinite::kText>(statistics);
   if (!warnings.empty()) line["warnings"] = to_json(warnings);
   if (events.count > 0) line["events"] = events_json(events);
   return with_checksum(line.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -259,15 +221,16 @@ EvaluationRecord read_line(const std::string& line) {
   record.derivatives = with_root ? Derivatives::kGaussNewton : gradient_if(with_gradient);
   Evaluation& evaluation = record.evaluation;
   evaluation.status = {code_of(object.at("status").get<std::string>()),
-                       number_of(object.at("time")), object.value("message", std::string())};
-  if (evaluation.status.ok()) evaluation.objective = number_of(object.at("objective"));
+                       to_number(object.at("time")), object.value("message", std::string())};
+  if (evaluation.status.ok()) evaluation.objective = to_number(object.at("objective"));
   if (evaluation.status.ok() && with_gradient)
     evaluation.gradient = vector_of(object.at("gradient"));
   if (evaluation.status.ok() && with_root)
     evaluation.jacobian_root = root_of(object.at("root"), evaluation.gradient.size());
   if (object.contains("extremes")) evaluation.extremes = extremes_of(object.at("extremes"));
-  evaluation.statistics = statistics_of(object.at("statistics"));
-  if (object.contains("warnings")) evaluation.warnings = warnings_of(object.at("warnings"));
+  evaluation.statistics = read_record<Statistics>(object.at("statistics"));
+  if (object.contains("warnings"))
+    evaluation.warnings = read_records<Warning>(object.at("warnings"));
   if (object.contains("events")) evaluation.events = events_of(object.at("events"));
   return record;
 }

@@ -11,19 +11,14 @@
 #include "equations/compiled_system.h"
 #include "jobs/json.h"
 #include "jobs/optimization_records.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "optimization/result_report.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
 
 namespace codesign {
 namespace {
-
-Json to_json(const std::vector<ConstraintRow>& rows) {
-  Json array = Json::array();
-  for (const ConstraintRow& row : rows)
-    array.push_back({{"joint", row.joint}, {"row", row.row}, {"kind", row.kind}});
-  return array;
-}
 
 /// The check belongs to writing files, so it must not make a job noticeably longer: this share of
 /// the search's processor time, or these seconds.
@@ -54,26 +49,6 @@ Json skipped(const std::string& why) { return {{"skipped", why}}; }
 
 }  // namespace
 
-Json to_json(const Counts& counts) {
-  return {{"bodies", counts.bodies},
-          {"coordinates", counts.coordinates},
-          {"first_order_equations", counts.first_order_equations},
-          {"controller_states", counts.controller_states},
-          {"degrees_of_freedom", counts.degrees_of_freedom},
-          {"constraints", counts.constraints},
-          {"redundant_constraints", counts.redundant_constraints},
-          {"dynamic_equations", counts.dynamic_equations},
-          {"parameters", counts.parameters},
-          {"sensitivities", counts.sensitivities},
-          {"total_equations", counts.total_equations},
-          {"solved_in", counts.in_joint_coordinates ? "joint" : "absolute"},
-          {"solved_coordinates", counts.solved_coordinates},
-          {"solved_constraints", counts.solved_constraints},
-          {"redundant_rows", to_json(counts.redundant_rows)},
-          {"undetermined_reactions", counts.undetermined_reactions},
-          {"chosen_friction", counts.chosen_friction}};
-}
-
 Json to_json(const InputError& error) {
   const InputFault& fault = error.fault();
   return {{"code", "bad_input"},      {"message", error.what()},  {"file", fault.where.file},
@@ -81,16 +56,7 @@ Json to_json(const InputError& error) {
           {"allowed", fault.allowed}};
 }
 
-Json to_json(const std::vector<LimitCrossing>& crossings) {
-  Json array = Json::array();
-  for (const LimitCrossing& c : crossings)
-    array.push_back({{"joint", c.joint},
-                     {"limit", c.limit},
-                     {"bound", c.bound},
-                     {"worst", c.worst},
-                     {"time", c.time}});
-  return array;
-}
+Json to_json(const std::vector<LimitCrossing>& crossings) { return records_json(crossings); }
 
 std::vector<MachineNumber> machine_numbers_of(const Problem& problem,
                                               const std::vector<double>& parameters) {
@@ -100,24 +66,10 @@ std::vector<MachineNumber> machine_numbers_of(const Problem& problem,
   return machine_numbers(system.robot(), system.topology(), system.study(), design.constants);
 }
 
-Json to_json(const std::vector<MachineNumber>& numbers) {
-  Json array = Json::array();
-  for (const MachineNumber& n : numbers)
-    array.push_back(
-        {{"joint", n.joint}, {"number", n.number}, {"value", n.value}, {"unit", n.unit}});
-  return array;
-}
+Json to_json(const std::vector<MachineNumber>& numbers) { return records_json(numbers); }
 
 void add_events(const Events& events, Json* object) {
-  Json list = Json::array();
-  for (const Event& event : events.list)
-    list.push_back({{"time", event.time},
-                    {"element", event.element},
-                    {"object", event.object},
-                    {"expression", event.expression},
-                    {"direction", event.rising ? "rising" : "falling"},
-                    {"kind", event.jump ? "jump" : "kink"}});
-  (*object)["events"] = std::move(list);
+  (*object)["events"] = records_json(events.list);
   (*object)["event_count"] = events.count;
 }
 
@@ -125,24 +77,9 @@ Json to_json(const Status& status) {
   return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}};
 }
 
-Json to_json(const Warnings& warnings) {
-  Json array = Json::array();
-  for (const Warning& warning : warnings)
-    array.push_back({{"code", warning.code},
-                     {"message", warning.message},
-                     {"file", warning.where.file},
-                     {"line", warning.where.line}});
-  return array;
-}
+Json to_json(const Warnings& warnings) { return records_json(warnings); }
 
-void add_statistics(const Statistics& statistics, Json* object) {
-  (*object)["steps"] = statistics.steps;
-  (*object)["rejected_steps"] = statistics.rejected_steps;
-  (*object)["explicit_steps"] = statistics.explicit_steps;
-  (*object)["cpu_seconds"] = statistics.cpu_seconds;
-  (*object)["constraint_drift"] = statistics.constraint_drift;
-  (*object)["energy_error"] = statistics.energy_error;
-}
+void add_statistics(const Statistics& statistics, Json* object) { add_fields(statistics, object); }
 
 void add_outcome(const Problem& problem, const Warnings& of_run, const Status& status,
                  Json* object) {
@@ -156,7 +93,7 @@ void add_outcome(const Problem& problem, const Warnings& of_run, const Status& s
 void add_counts(const Problem& problem, const std::vector<double>& parameters, Json* object) {
   Status status;
   const Counts counts = count_equations(*system_of(problem), parameters, &status);
-  if (status.ok()) (*object)["counts"] = to_json(counts);
+  if (status.ok()) (*object)["counts"] = record_json(counts);
 }
 
 Json parameter_table(const Problem& problem, const OptimizationResult& result) {

@@ -7,7 +7,6 @@
 
 #include "jobs/json.h"
 #include "jobs/run_recorder.h"
-#include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/simulation.h"
@@ -18,8 +17,6 @@ namespace codesign {
 
 struct MachineNumber;
 
-/// One entry per member of Counts, with the members' names.
-Json to_json(const Counts& counts);
 /// `{code, message, file, line, element, value, allowed}` with code `bad_input`.
 Json to_json(const InputError& error);
 /// `[{joint, limit, bound, worst, time}]`
@@ -35,8 +32,7 @@ void add_events(const Events& events, Json* object);
 Json to_json(const Status& status);
 /// `[{code, message, file, line}]`
 Json to_json(const Warnings& warnings);
-/// Sets `steps`, `rejected_steps`, `explicit_steps`, `cpu_seconds`, `constraint_drift` and
-/// `energy_error`.
+/// Sets the fields of the statistics.
 void add_statistics(const Statistics& statistics, Json* object);
 /// Sets `setup_seconds`, `warnings`, those of the problem before those of the run, and `error` if
 /// the run failed.

@@ -9,6 +9,9 @@
 #include "ensemble/scenario.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "jobs/record_cells.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "jobs/shown_signals.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"
@@ -19,36 +22,25 @@ namespace codesign {
 namespace {
 
 Json to_json(const ScenarioResult& scenario) {
-  Json values = Json::object();
+  Json object = record_json(scenario), values = Json::object();
   for (const auto& [name, value] : scenario.values) values[name] = value;
-  Json object = {{"run", scenario.run},
-                 {"sample", scenario.sample + 1},
-                 {"weight", scenario.weight},
-                 {"values", values},
-                 {"initial_objective", scenario.initial_objective},
-                 {"objective", scenario.objective},
-                 {"initial_failed", scenario.initial_failed},
-                 {"failed", scenario.failed}};
-  if (!scenario.friction_law.empty()) object["friction_law"] = scenario.friction_law;
+  object["values"] = std::move(values);
   return object;
 }
 
 Json to_json(const Validation& validation, bool has_value_at_risk) {
-  Json object = {{"samples", validation.samples},   {"failed", validation.failed},
-                 {"promised", validation.promised}, {"objective", validation.objective},
-                 {"mean", validation.mean},         {"worst", validation.worst}};
-  if (!has_value_at_risk) return object;
-  object["value_at_risk"] = validation.value_at_risk;
-  object["within"] = validation.within;
+  Json object = record_json(validation);
+  if (!has_value_at_risk)
+    for (const char* name : {"value_at_risk", "within"}) object.erase(name);
   return object;
 }
 
 Json multistart_json(const Problem& problem, const OptimizationResult& result) {
   Json optima = Json::array();
-  for (const Optimum& optimum : result.multistart.optima)
-    optima.push_back({{"objective", optimum.objective},
-                      {"found", optimum.found},
-                      {"parameters", by_name(problem.tuned_names(), optimum.rho)}});
+  for (const Optimum& optimum : result.multistart.optima) {
+    optima.push_back(record_json(optimum));
+    optima.back()["parameters"] = by_name(problem.tuned_names(), optimum.rho);
+  }
   return {{"starts", result.multistart.starts.size()},
           {"screened", result.multistart.screened},
           {"unusable", result.multistart.unusable},
@@ -67,6 +59,14 @@ std::vector<std::string> set_parameters(const OptimizationResult& result) {
 bool is_law_uncertain(const OptimizationResult& result) {
   return !result.ensemble.scenarios.empty() &&
          !result.ensemble.scenarios.front().friction_law.empty();
+}
+
+std::vector<std::string>::const_iterator law_column(const std::vector<std::string>& columns) {
+  return std::find(columns.begin(), columns.end(), "friction_law");
+}
+
+void append(const std::vector<std::string>& more, std::vector<std::string>* texts) {
+  texts->insert(texts->end(), more.begin(), more.end());
 }
 
 /// The margins of the constraints, by the text of the constraint.
@@ -122,9 +122,7 @@ Json optimization_json(const Problem& problem, const OptimizationResult& result)
     if (result.constraints.margins.size() > 0)
       object["constraints"] = constraints_json(problem, result);
   }
-  object["iterations"] = result.cost.iterations;
-  object["evaluations"] = result.cost.evaluations;
-  object["failed_evaluations"] = result.cost.failed_evaluations;
+  add_fields(result.cost, &object);
   object["termination"] = result.termination;
   if (!result.algorithm.empty()) object["algorithm"] = result.algorithm;
   if (std::isfinite(result.optimality.stationarity)) add_optimality(names, result, &object);
@@ -162,19 +160,18 @@ void add_ensemble(const Problem& problem, const OptimizationResult& result, Json
 }
 
 std::vector<std::string> start_columns(const Problem& problem) {
-  std::vector<std::string> columns = {"search",      "start_objective", "objective", "status",
-                                      "termination", "evaluations",     "optimum"};
+  std::vector<std::string> columns = {"search"};
+  append(columns_of<StartResult>(), &columns);
   for (const std::string& name : problem.tuned_names()) columns.push_back("start_" + name);
-  for (const std::string& name : problem.tuned_names()) columns.push_back(name);
+  append(problem.tuned_names(), &columns);
   return columns;
 }
 
 std::vector<std::vector<std::string>> start_rows(const OptimizationResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (const StartResult& start : result.multistart.starts) {
-    rows.push_back({std::to_string(rows.size() + 1), to_decimal(start.start_objective),
-                    to_decimal(start.objective), name_of(start.status.code), start.termination,
-                    std::to_string(start.evaluations), std::to_string(start.optimum + 1)});
+    rows.push_back({std::to_string(rows.size() + 1)});
+    append(cells_of(start), &rows.back());
     for (double value : start.start) rows.back().push_back(to_decimal(value));
     for (double value : start.rho) rows.back().push_back(to_decimal(value));
   }
@@ -182,26 +179,24 @@ std::vector<std::vector<std::string>> start_rows(const OptimizationResult& resul
 }
 
 std::vector<std::string> scenario_columns(const OptimizationResult& result) {
-  std::vector<std::string> columns = {"run",       "sample",         "weight", "initial_objective",
-                                      "objective", "initial_failed", "failed"};
-  if (is_law_uncertain(result)) columns.emplace_back("friction_law");
-  for (const std::string& name : set_parameters(result)) columns.push_back(name);
+  std::vector<std::string> columns = columns_of<ScenarioResult>();
+  if (!is_law_uncertain(result)) columns.erase(law_column(columns));
+  append(set_parameters(result), &columns);
   return columns;
 }
 
 std::vector<std::vector<std::string>> scenario_rows(const OptimizationResult& result) {
-  const std::vector<std::string> names = set_parameters(result);
+  const std::vector<std::string> names = set_parameters(result),
+                                 columns = columns_of<ScenarioResult>();
   std::vector<std::vector<std::string>> rows;
   for (const ScenarioResult& scenario : result.ensemble.scenarios) {
-    rows.push_back({scenario.run, std::to_string(scenario.sample + 1), to_decimal(scenario.weight),
-                    to_decimal(scenario.initial_objective), to_decimal(scenario.objective),
-                    scenario.initial_failed ? "1" : "0", scenario.failed ? "1" : "0"});
-    if (is_law_uncertain(result)) rows.back().push_back(scenario.friction_law);
+    std::vector<std::string>& row = rows.emplace_back(cells_of(scenario));
+    if (!is_law_uncertain(result)) row.erase(row.begin() + (law_column(columns) - columns.begin()));
     for (const std::string& name : names) {
       std::string cell;
       for (const auto& [set, value] : scenario.values)
         if (set == name) cell = to_decimal(value);
-      rows.back().push_back(cell);
+      row.push_back(cell);
     }
   }
   return rows;

@@ -11,6 +11,8 @@
 #include "description/study.h"
 #include "ensemble/ensemble.h"
 #include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "jobs/robot_gains.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"
@@ -253,15 +255,9 @@ ParameterSettings read_result(const SourceText& json) {
 }
 
 std::string apply_text(const ApplyRecord& record) {
-  Json object, changes = Json::array();
-  for (const ApplyRecord::Change& change : record.changes)
-    changes.push_back({{"server", change.server},
-                       {"name", change.name},
-                       {"before", change.before},
-                       {"after", change.after},
-                       {"now", change.now}});
+  Json object;
   object["success"] = record.success;
-  object["changes"] = std::move(changes);
+  object["changes"] = records_json(record.changes);
   object["rollback_seconds"] = record.rollback_seconds;
   if (record.success)
     object["message"] = record.message;

@@ -2,10 +2,11 @@
 #include "jobs/shown_signals.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "description/study.h"
 #include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
 #include "problem/load_problem.h"
@@ -83,9 +84,6 @@ bool exists(const SignalDescription& signal, const RobotDescription& robot,
   return true;
 }
 
-/// A number, or null where there is no bound.
-Json bound(double value) { return std::isfinite(value) ? Json(value) : Json(); }
-
 Json place(const ScenarioResult& scenario) {
   return {{"run", scenario.run}, {"sample", scenario.sample + 1}};
 }
@@ -137,20 +135,7 @@ void add_watched(const OptimizationResult& result, Json* object) {
   if (result.constraints.watched.empty()) return;
   Json list = Json::array();
   for (const WatchedResult& watched : result.constraints.watched) {
-    Json one = {{"element", watched.element},
-                {"signal", watched.signal},
-                {"lower", bound(watched.lower)},
-                {"upper", bound(watched.upper)},
-                {"after", watched.after},
-                {"before", watched.before},
-                {"initial_smallest", watched.initial_smallest},
-                {"initial_largest", watched.initial_largest},
-                {"smallest", watched.smallest},
-                {"largest", watched.largest},
-                {"smallest_time", watched.smallest_time},
-                {"largest_time", watched.largest_time},
-                {"violation", watched.violation},
-                {"tolerance", watched.tolerance}};
+    Json one = record_json(watched);
     if (!result.ensemble.scenarios.empty()) {
       one["smallest_in"] = place(result.ensemble.scenarios[to_index(watched.smallest_scenario)]);
       one["largest_in"] = place(result.ensemble.scenarios[to_index(watched.largest_scenario)]);

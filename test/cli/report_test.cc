@@ -4,7 +4,8 @@
 #include <sstream>
 
 #include "cli/report.h"
-#include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "mechanism_codesign/version.h"
 
 namespace codesign::cli {
@@ -27,7 +28,7 @@ TEST(JsonOutput, CountsHaveTheirNames) {
   counts.bodies = 3;
   counts.total_equations = 372;
   counts.redundant_rows = {{"pin", 4, "parallel axes, x_i . z_j"}};
-  const Json object = to_json(counts);
+  const Json object = record_json(counts);
   EXPECT_EQ(object["bodies"], 3);
   EXPECT_EQ(object["total_equations"], 372);
   EXPECT_EQ(object["redundant_rows"][0]["joint"], "pin");

@@ -5,10 +5,12 @@
 #include "ensemble/ensemble.h"
 #include "ensemble/other_steps.h"
 #include "ensemble/parameter_rows.h"
+#include "jobs/result_fields.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
 #include "optimization/smooth_program.h"
 #include "problem/load_problem.h"
+#include "ros/common/message_fields.h"
 #include "ros/jobs/job.h"
 #include "ros/jobs/messages.h"
 #include "ros/jobs/request.h"
@@ -67,11 +69,7 @@ void compute(const Problem& problem, const mechanism_codesign::EvaluateRequest& 
   reply->derivative = check.independent.derivative;
   reply->derivative_error = check.independent.error;
   if (check.independent.is_known()) reply->derivative_steps = describe_steps(check.independent);
-  reply->steps = static_cast<std::uint64_t>(check.evaluation.statistics.steps);
-  reply->rejected_steps = static_cast<std::uint64_t>(check.evaluation.statistics.rejected_steps);
-  reply->cpu_seconds = check.evaluation.statistics.cpu_seconds;
-  reply->constraint_drift = check.evaluation.statistics.constraint_drift;
-  reply->energy_error = check.evaluation.statistics.energy_error;
+  set_fields(check.evaluation.statistics, reply);
   reply->warnings = warning_messages(problem.warnings(), check.evaluation.warnings);
 }
 

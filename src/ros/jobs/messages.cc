@@ -6,10 +6,12 @@
 
 #include "description/study.h"
 #include "jobs/optimization_records.h"
+#include "jobs/result_fields.h"
 #include "math/arrays.h"
 #include "optimization/result_report.h"
 #include "problem/load_problem.h"
 #include "ros/bags/job_bag.h"
+#include "ros/common/message_fields.h"
 #include "ros/common/replies.h"
 
 namespace codesign {
@@ -19,75 +21,44 @@ std::uint32_t count(int number) { return static_cast<std::uint32_t>(number); }
 
 mechanism_codesign::ScenarioResult to_message(const ScenarioResult& scenario) {
   mechanism_codesign::ScenarioResult message;
-  message.run = scenario.run;
-  message.sample = count(scenario.sample + 1);
-  message.weight = scenario.weight;
+  set_fields(scenario, &message);
   for (const auto& [name, value] : scenario.values) {
     message.parameters.push_back(name);
     message.values.push_back(value);
   }
-  message.friction_law = scenario.friction_law;
-  message.initial_objective = scenario.initial_objective;
-  message.objective = scenario.objective;
-  message.initial_failed = scenario.initial_failed;
-  message.failed = scenario.failed;
   return message;
 }
 
 mechanism_codesign::Validation to_message(const Validation& validation) {
   mechanism_codesign::Validation message;
-  message.samples = count(validation.samples);
-  message.failed = count(validation.failed);
-  message.promised = validation.promised;
-  message.objective = validation.objective;
-  message.mean = validation.mean;
-  message.worst = validation.worst;
-  message.value_at_risk = validation.value_at_risk;
-  message.within = validation.within;
+  set_fields(validation, &message);
   return message;
 }
 
 mechanism_codesign::SearchResult to_message(const StartResult& search) {
   mechanism_codesign::SearchResult message;
+  set_fields(search, &message);
   message.start = to_array(search.start);
   message.end = to_array(search.rho);
-  message.start_objective = search.start_objective;
-  message.objective = search.objective;
   message.code = name_of(search.status.code);
   if (!search.status.ok()) message.message = reason(search.status);
-  message.termination = search.termination;
-  message.evaluations = count(search.evaluations);
-  message.optimum = count(search.optimum + 1);
   return message;
 }
 
 mechanism_codesign::Optimum to_message(const Optimum& optimum) {
   mechanism_codesign::Optimum message;
+  set_fields(optimum, &message);
   message.values = to_array(optimum.rho);
-  message.objective = optimum.objective;
-  message.found = count(optimum.found);
   return message;
 }
 
 mechanism_codesign::WatchedSignal to_message(const WatchedResult& result, bool is_ensemble) {
   mechanism_codesign::WatchedSignal message;
-  message.element = result.element;
-  message.signal = result.signal;
-  message.lower = result.lower;
-  message.upper = result.upper;
-  message.after = result.after;
-  message.before = result.before;
-  message.initial_smallest = result.initial_smallest;
-  message.initial_largest = result.initial_largest;
-  message.smallest = result.smallest;
-  message.largest = result.largest;
-  message.smallest_time = result.smallest_time;
-  message.largest_time = result.largest_time;
+  set_fields(result, &message);
   message.smallest_scenario =
       is_ensemble ? static_cast<std::uint32_t>(result.smallest_scenario) + 1 : 0;
   message.largest_scenario =
       is_ensemble ? static_cast<std::uint32_t>(result.largest_scenario) + 1 : 0;
-  message.violation = result.violation;
   return message;
 }
 
@@ -95,15 +66,10 @@ constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 mechanism_codesign::IdentifiedNumber to_message(const IdentifiedNumber& number) {
   mechanism_codesign::IdentifiedNumber message;
+  set_fields(number, &message);
   message.name = number.name;
-  message.unit = number.unit;
-  message.start = number.start;
-  message.value = number.value;
   message.lower = number.lower;
   message.upper = number.upper;
-  message.determined = number.is_determined;
-  message.on_bound = number.is_on_bound;
-  message.deviation = number.is_on_bound ? kNotKnown : number.deviation;
   message.low = number.is_on_bound ? kNotKnown : number.low;
   message.high = number.is_on_bound ? kNotKnown : number.high;
   const auto end = [&](ProfileEnd found, double value) {
@@ -120,12 +86,9 @@ std::vector<mechanism_codesign::OutputFit> to_messages(const std::vector<OutputF
   std::vector<mechanism_codesign::OutputFit> messages;
   for (const OutputFit& fit : fits) {
     mechanism_codesign::OutputFit& message = messages.emplace_back();
+    set_fields(fit, &message);
+    set_fields(fit.whiteness, &message);
     message.joint = fit.joint;
-    message.recorded_rms = fit.recorded;
-    message.start_rms = fit.start;
-    message.rms = fit.rms;
-    message.worst = fit.worst;
-    message.first_correlation = fit.whiteness.first_correlation;
     message.whiteness = fit.whiteness.probability;
   }
   return messages;
@@ -139,9 +102,7 @@ std::vector<mechanism_codesign::Warning> warning_messages(const Warnings& of_fil
   append(of_job, &warnings);
   std::vector<mechanism_codesign::Warning> messages;
   for (const Warning& warning : warnings) {
-    messages.emplace_back();
-    messages.back().code = warning.code;
-    messages.back().message = warning.message;
+    set_fields(warning, &messages.emplace_back());
   }
   return messages;
 }
@@ -169,14 +130,8 @@ mechanism_codesign::OptimizeResult optimization_message(const Problem& problem,
   message.initial_gradient = to_array(result.initial.gradient);
   message.gradient = to_array(result.best.gradient);
   message.termination = result.termination;
-  message.iterations = static_cast<std::uint32_t>(result.cost.iterations);
-  message.evaluations = static_cast<std::uint32_t>(result.cost.evaluations);
-  message.failed_evaluations = static_cast<std::uint32_t>(result.cost.failed_evaluations);
-  message.steps = static_cast<std::uint64_t>(result.cost.statistics.steps);
-  message.rejected_steps = static_cast<std::uint64_t>(result.cost.statistics.rejected_steps);
-  message.cpu_seconds = result.cost.statistics.cpu_seconds;
-  message.constraint_drift = result.cost.statistics.constraint_drift;
-  message.energy_error = result.cost.statistics.energy_error;
+  set_fields(result.cost, &message);
+  set_fields(result.cost.statistics, &message);
   set_ensemble(result, &message);
   message.signals =
       watched_messages(result.constraints.watched, !result.ensemble.scenarios.empty());
@@ -228,11 +183,7 @@ mechanism_codesign::IdentifyResult identification_message(const Problem& problem
     for (const Parameter& parameter : problem.all_parameters())
       message.parameters.push_back(parameter.name);
   message.values = result.parameters;
-  message.termination = result.termination;
-  message.iterations = static_cast<std::uint32_t>(result.iterations);
-  message.evaluations = static_cast<std::uint32_t>(result.evaluations);
-  message.failed_evaluations = static_cast<std::uint32_t>(result.failed_evaluations);
-  message.cpu_seconds = result.cpu_seconds;
+  set_fields(result, &message);
   message.setup_seconds = problem.setup_seconds();
   return message;
 }
