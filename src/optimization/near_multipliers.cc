@@ -19,16 +19,16 @@ using Eigen::VectorXd;
 // Least distances, in lengths of the directions. The first ones find the active rows in a few
 // rounds, with the last one the rounding of r is worth four digits of a multiplier.
 constexpr double kLeastDistances[] = {1e-2, 1e-4, 1e-6, 1e-6};
-constexpr int kMostRounds = 100;     // of Newton's method, which takes about five
-constexpr int kRefinements = 2;      // each reduces the rounding of the multipliers by 1e-4
+constexpr int kMostRounds = 100;          // of Newton's method, which takes about five
+constexpr int kRefinements = 2;           // each reduces the rounding of the multipliers by 1e-4
 constexpr double kSlopeRounding = 1e-20;  // of |g|^2, in slopes
 constexpr double kWholeStep = 1e-12;
 
 /// The directions of all holders, one after another. Rows that read the same variables form a
 /// group, so that time and memory are those of the variables that a row reads.
-class Directions {
+class HolderDirections {
  public:
-  Directions(Index variables, const std::vector<Holder>& holders)
+  HolderDirections(Index variables, const std::vector<Holder>& holders)
       : variables_(variables), holders_(holders) {
     Index leading = 0;
     for (const Holder& holder : holders) leading = std::max(leading, holder.leading.size());
@@ -240,7 +240,7 @@ class NewtonSearch {
   const VectorXd& gradient_;
   const std::vector<Holder>& holders_;
   const std::atomic<bool>* cancel_;
-  const Directions directions_;
+  const HolderDirections directions_;
   VectorXd own_, distances_, offsets_;  ///< d, D, b
   std::vector<bool> active_;
   MatrixXd factor_;
