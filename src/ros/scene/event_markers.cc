@@ -1,15 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ros/scene/event_markers.h"
 
-#include "jobs/result_fields.h"
-#include "ros/common/message_fields.h"
-
 namespace codesign {
 
 mechanism_codesign::Event event_message(const Event& event, const MessageContext& context) {
   mechanism_codesign::Event message;
   message.header = header_of(context);
-  set_fields(event, &message);
+  message.element = event.element;
+  message.object = event.object;
+  message.expression = event.expression;
   message.rising = event.rising;
   message.jump = event.jump;
   return message;
