@@ -67,7 +67,7 @@ std::string file_texts(const Problem& problem) {
 }
 
 /// A double without loss.
-Json exact(double value) { return number_json<NonFinite::kText>(value); }
+Json exact(double value) { return number_to_json<NonFinite::kText>(value); }
 
 template <class Values>
 Json numbers_json(const Values& values) {

@@ -26,7 +26,7 @@ Json records_json(const std::vector<Record>& records);
 /// A number as a record has it, and back. @throws Json::exception or std::invalid_argument if it
 /// is none.
 template <NonFinite non_finite = NonFinite::kNull>
-Json number_json(double value) {
+Json number_to_json(double value) {
   return non_finite == NonFinite::kNull || std::isfinite(value) ? Json(value)
                                                                 : Json(to_decimal(value));
 }
@@ -36,7 +36,7 @@ namespace internal {
 
 template <NonFinite non_finite>
 Json value_json(double value) {
-  return number_json<non_finite>(value);
+  return number_to_json<non_finite>(value);
 }
 template <NonFinite non_finite, class T>
 Json value_json(const T& value) {
@@ -82,7 +82,7 @@ void read_field(const Field<Get>& row, const Json& object, Record* record) {
 }
 template <class Record>
 void read_field(const WordField<Record>& row, const Json& object, Record* record) {
-  const auto text = object.at(row.name).get<std::string>();
+  const auto text = object.at(row.name).template get<std::string>();
   if (text != row.if_true && text != row.if_false)
     throw std::invalid_argument(std::string("unknown ") + row.name + ": " + text);
   record->*row.member = text == row.if_true;
