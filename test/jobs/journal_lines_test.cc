@@ -84,7 +84,7 @@ TEST(JournalHeader, RefusesOtherVersionsAndOtherFiles) {
   };
   EXPECT_NE(header_difference(set("version", "0.0.1"), own).find("version \"0.0.1\""),
             std::string::npos);
-  EXPECT_NE(header_difference(set("journal", 3), own).find("format 3"), std::string::npos);
+  EXPECT_NE(header_difference(set("journal", 2), own).find("format 2"), std::string::npos);
   EXPECT_NE(header_difference("{\"journal\":1,\"version\":\"0.1.0\"}", own).find("format 1"),
             std::string::npos)
       << "it had no checksums";
@@ -99,7 +99,7 @@ TEST(JournalHeader, RefusesADamagedLine) {
   flipped[own.find("\"study\":\"") + 9] ^= 1;
   const std::string deep = "{\"journal\":" + std::string(1000000, '[');
   for (const std::string& text :
-       {flipped, own.substr(0, own.size() - 1), with_checksum("{\"journal\":2,}"), deep})
+       {flipped, own.substr(0, own.size() - 1), with_checksum("{\"journal\":3,}"), deep})
     EXPECT_NE(header_difference(text, own).find("line 1 is damaged"), std::string::npos)
         << text.substr(0, 100);
 }
