@@ -58,18 +58,23 @@ double ModeWatch::side_at(int k, double theta, OneStep<double>* step) {
   return side(k, residual_);
 }
 
-// At both ends and between them; where a guard is lowest between two points, there as well.
+// At all points; where a guard is lowest between two of them, there as well. The first and the last
+// interval may have a lowest point that no point between them shows.
 ModeWatch::Crossing ModeWatch::crossing_of(int k, OneStep<double>* step) {
   const auto at = [&](int point) { return side(k, samples_.col(point)); };
-  for (int point = 1; point <= kPoints; ++point) {
-    const double to = static_cast<double>(point) / kPoints,
-                 from = static_cast<double>(point - 1) / kPoints;
-    if (has_left(k, at(point))) return {k, from, to};
-    if (point == kPoints || at(point) > at(point - 1) || at(point) > at(point + 1)) continue;
-    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / kPoints,
+  for (int point = 1; point <= points_; ++point) {
+    const double from = static_cast<double>(point - 1) / points_;
+    if (has_left(k, at(point))) return {k, from, static_cast<double>(point) / points_};
+    if (point == points_) break;
+    const bool falls = at(point) <= at(point - 1), rises = at(point) <= at(point + 1);
+    // A guard that the projection has put beyond zero at the start does not leave its side there.
+    const bool at_start = point == 1 && rises && !has_left(k, at(0)),
+               at_end = point + 1 == points_ && falls;
+    if (!(falls && rises) && !at_start && !at_end) continue;
+    const double place = (point - 1 + lowest(at(point - 1), at(point), at(point + 1))) / points_,
                  value = side_at(k, place, step);
-    if (has_left(k, value)) return {k, from, place};
-    look_for_touch(k, place, value, step);
+    if (has_left(k, value) && value < at(0)) return {k, std::min(from, place), place};
+    if (falls && rises) look_for_touch(k, place, value, step);
   }
   return {};
 }
@@ -79,11 +84,11 @@ ModeWatch::Crossing ModeWatch::crossing_of(int k, OneStep<double>* step) {
 void ModeWatch::look_for_touch(int k, double place, double value, OneStep<double>* step) {
   constexpr double kMoves = 1e4, kWindow = 1e-3;
   constexpr int kMost = 4;
-  const auto row = samples_.row(k);
-  const double range = row.maxCoeff() - row.minCoeff(), deepest = kGrazing * kGrazing / 4.0 * range;
+  const double range = along(k).maxCoeff() - along(k).minCoeff(),
+               deepest = kGrazing * kGrazing / 4.0 * range;
   if (!(range > kMoves * sizes_[k]) || !(value < kWindow * range)) return;
   // The lowest point of the dense output, by parabolas through ever nearer points.
-  double width = 0.5 / kPoints;
+  double width = 0.5 / points_;
   for (int n = 0; n < kMost && value > deepest; ++n, width *= 0.1) {
     const double a = side_at(k, place - width, step), c = side_at(k, place + width, step);
     place += width * (lowest(a, value, c) - 1.0);
@@ -136,14 +141,16 @@ void ModeWatch::find_zeros(const State<double>& at, Equations<double>* equations
       zeros->push_back(k);
 }
 
-ModeWatch::Crossing ModeWatch::first_crossing(OneStep<double>* step) {
+void ModeWatch::sample_at(int points, OneStep<double>* step) {
   const auto count = to_signed(mode_.size());
-  samples_.resize(count, kPoints + 1);
-  for (int point = 0; point <= kPoints; ++point) {
-    if (point == kPoints)
+  points_ = points;
+  if (samples_.rows() != count || samples_.cols() <= points)
+    samples_.resize(count, std::max<Eigen::Index>(samples_.cols(), points + 1));
+  for (int point = 0; point <= points; ++point) {
+    if (point == points)
       point_ = step->unprojected();
     else
-      step->interpolate_attempt(static_cast<double>(point) / kPoints, &point_);
+      step->interpolate_attempt(static_cast<double>(point) / points, &point_);
     step->equations().compiled().switches(point_, &residual_, &right_);
     samples_.col(point) = residual_;
     if (sizes_.size() != count) sizes_.setZero(count);
@@ -151,9 +158,40 @@ ModeWatch::Crossing ModeWatch::first_crossing(OneStep<double>* step) {
     sizes_ = sizes_.cwiseMax(kRounding * residual_.cwiseAbs())
                  .cwiseMax(kCancelled * (right_.cwiseAbs() + (right_ - residual_).cwiseAbs()));
   }
+}
+
+// A guard that turns round at every eighth point may do so more often between them.
+bool ModeWatch::is_resolved() const {
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
+    int turns = 0;
+    double before = 0.0;
+    for (int point = 1; point <= points_; ++point) {
+      const double change = samples_(k, point) - samples_(k, point - 1);
+      if (!(std::abs(change) > sizes_[k])) continue;
+      if (change * before < 0.0) ++turns;
+      before = change;
+    }
+    if (8 * turns > points_) return false;
+  }
+  return true;
+}
+
+bool ModeWatch::sample(OneStep<double>* step) {
+  const double share = step->step_size() / system_.study().duration;
+  int points = std::max(kLeastPoints, static_cast<int>(std::min(1.0, share) * kPointsPerStudy));
+  sample_at(points, step);
+  while (!is_resolved()) {
+    points *= 2;
+    if (points > kMostPoints) return false;
+    sample_at(points, step);
+  }
+  return true;
+}
+
+ModeWatch::Crossing ModeWatch::first_crossing(OneStep<double>* step) {
   Crossing first;
   double earliest = 2.0;
-  for (int k = 0; k < static_cast<int>(count); ++k) {
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
     const Crossing crossing = crossing_of(k, step);
     if (crossing.guard < 0 || crossing.from >= earliest) continue;
     const double place = locate(crossing, step);
@@ -168,7 +206,7 @@ ModeWatch::Crossing ModeWatch::first_crossing(OneStep<double>* step) {
 // the guard is crossed before inputs jump.
 ModeWatch::Crossing ModeWatch::crossing_at_end(OneStep<double>* step) {
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
-    const double end = side(k, samples_.col(kPoints)), before = side(k, samples_.col(kPoints - 1));
+    const double end = side(k, samples_.col(points_)), before = side(k, samples_.col(points_ - 1));
     if (std::abs(end) <= sizes_[k] && before > sizes_[k] &&
         has_left(k, side_at(k, 1.0 + kBeyond, step)))
       return {k, 1.0, 1.0};
@@ -183,8 +221,17 @@ double ModeWatch::locate(const Crossing& crossing, OneStep<double>* step) {
   constexpr double kEnough = 1e-14;
   double a = crossing.from, b = crossing.to, at_a = side_at(crossing.guard, a, step),
          at_b = side_at(crossing.guard, b, step);
-  // A guard that begins at zero and falls: it crosses where the step begins.
-  if (at_a <= 0.0) return a;
+  if (at_a <= 0.0) {
+    // A guard that begins at zero crosses where the step begins, unless it rises before it falls.
+    constexpr int kHalvings = 12;
+    const double begin = a;
+    for (int k = 0; k < kHalvings && at_a <= 0.0; ++k) {
+      const double middle = 0.5 * (begin + b), value = side_at(crossing.guard, middle, step);
+      (value > sizes_[crossing.guard] ? a : b) = middle;
+      (value > sizes_[crossing.guard] ? at_a : at_b) = value;
+    }
+    if (at_a <= 0.0) return begin;
+  }
   int last = 0;
   for (int k = 0; k < kMost && b - a > kEnough; ++k) {
     const bool bisects = k > kUsual && k % 2 == 0;
@@ -243,10 +290,19 @@ Status ModeWatch::undefined_guard(double t) const {
 // Behind the crossing another mode holds, which may not ask for that guard: sqrt(x) where x < 0.
 bool ModeWatch::is_undefined_before(const Crossing& crossing) {
   const double end = crossing.guard < 0 ? 1.0 : crossing.to;
-  for (int point = 0; point <= kPoints && static_cast<double>(point) / kPoints <= end; ++point)
+  for (int point = 0; point <= points_ && static_cast<double>(point) / points_ <= end; ++point)
     for (Eigen::Index k = 0; k < samples_.rows(); ++k)
       if (std::isnan(samples_(k, point))) undefined_ = static_cast<int>(k);
   return undefined_ >= 0;
+}
+
+// Behind the crossing the attempt follows a motion that does not take place, in which the guard may
+// go far.
+double ModeWatch::pace_before(const Crossing& crossing) const {
+  const auto before =
+      samples_.row(crossing.guard).head(1 + static_cast<Eigen::Index>(crossing.to * points_));
+  const double range = std::max(0.0, before.maxCoeff()) - std::min(0.0, before.minCoeff());
+  return crossing.to > 0.0 ? range / (crossing.to * step_size_) : 0.0;
 }
 
 bool ModeWatch::cut(OneStep<double>* step) {
@@ -255,6 +311,7 @@ bool ModeWatch::cut(OneStep<double>* step) {
   is_due_ = false;
   step_size_ = step->step_size();
   touch_.guard = -1;
+  if (!sample(step)) return false;
   Crossing crossing = first_crossing(step);
   if (touch_.guard >= 0 && crossing.guard >= 0 && crossing.to <= touch_.to) touch_.guard = -1;
   if (touch_.guard >= 0) step->interpolate_attempt(touch_.to, &touched_);
@@ -269,8 +326,7 @@ bool ModeWatch::cut(OneStep<double>* step) {
   if (!has_left(crossing.guard, side(crossing.guard, samples_.col(0)))) guard_ = crossing.guard;
   is_due_ = true;
   next_mode_ = mode_beyond(crossing, step);
-  const auto row = samples_.row(crossing.guard);
-  guard_pace_ = (row.maxCoeff() - row.minCoeff()) / step_size_;
+  guard_pace_ = pace_before(crossing);
   return crossing.from >= 1.0 ||
          repeat(crossing.guard, std::max(crossing.to * step_size_, least), step);
 }

@@ -104,7 +104,10 @@ class ModeWatch {
   /// A guard is only touched where its rate is at most this share of its range over the attempt
   /// per second: as sharp as its sign is known within kRounding.
   static constexpr double kGrazing = 1e-4;
-  static constexpr int kPoints = 5;  ///< at which guards are evaluated after the start of a step
+  /// Points of a step at which guards are evaluated, after its start: at least so many, and so many
+  /// in the duration of the study; more where a guard turns round more often than they show, at
+  /// most kMostPoints.
+  static constexpr int kLeastPoints = 5, kPointsPerStudy = 1024, kMostPoints = 8192;
 
   struct Crossing {
     int guard = -1;
@@ -118,12 +121,20 @@ class ModeWatch {
   /// Whether a value of side() has left its side by more than what rounding makes of the guard,
   /// which may stay at zero: a bristle at rest.
   bool has_left(int k, double value) const { return value < -sizes_[k]; }
+  /// Evaluates the guards along the attempt. False if one turns round too often to be followed.
+  bool sample(OneStep<double>* step);
+  void sample_at(int points, OneStep<double>* step);
+  bool is_resolved() const;
+  /// A guard at the points of the attempt.
+  auto along(int k) const { return samples_.row(k).head(points_ + 1); }
   Crossing first_crossing(OneStep<double>* step);
   bool is_undefined_before(const Crossing& crossing);
   Crossing crossing_of(int k, OneStep<double>* step);
   Crossing crossing_at_end(OneStep<double>* step);
   double locate(const Crossing& crossing, OneStep<double>* step);
   bool repeat(int guard, double h, OneStep<double>* step);
+  /// The range of the guard from the start of the attempt to its zero, per second.
+  double pace_before(const Crossing& crossing) const;
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
   void look_for_touch(int k, double place, double value, OneStep<double>* step);
@@ -148,13 +159,14 @@ class ModeWatch {
   const SwitchOrigin *held_at_ = nullptr, *undefined_at_ = nullptr;
   int returns_ = 0;            ///< changes in turn without a step between them
   double last_change_ = -1.0;  ///< [s]
-  double guard_pace_ = 0.0;    ///< range of the guard over the attempt that it cut, per second
+  double guard_pace_ = 0.0;    ///< pace_before() of the attempt that it cut
   double step_size_ = 0.0;     ///< of the last attempt before it was cut [s]
   VectorX<double> sizes_;      ///< of what counts as zero of each guard
   Crossing touch_;             ///< the first guard that the attempt touches; guard -1: none
   State<double> point_, touched_;
   VectorX<double> residual_, right_, ahead_;
-  Eigen::MatrixXd samples_;                     ///< a column of guards per point of the step
+  int points_ = kLeastPoints;                   ///< of the last attempt
+  Eigen::MatrixXd samples_;                     ///< a column of guards per point, and room for more
   std::unique_ptr<Equations<Lanes<4>>> along_;  ///< the first lane is the direction of the motion
   State<Lanes<4>> moving_;
 };

@@ -16,7 +16,6 @@
 namespace codesign {
 namespace {
 
-constexpr int kPieces = 4;           // of a step: the slope is computed at their ends
 constexpr double kInside = 1e-10;    // fraction of a step: at its ends a reference may have a kink,
                                      // so that slopes are taken just inside
 constexpr double kRounding = 1e-14;  // fraction of the duration: where a step ends at a break time,
@@ -128,36 +127,25 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   std::optional<double> break_time = layout_.break_near(to, slack);
   if (to < instants.front() - slack || curve.next >= instants.size()) return;
   const double begin = std::max(from, instants.front()), end = std::min(to, instants.back());
-  points_.clear();
-  for (int piece = 1; piece < kPieces; ++piece)
-    points_.push_back(from + (to - from) * piece / kPieces);
-  for (std::size_t i = curve.next; i < instants.size() && instants[i] <= end + slack; ++i)
-    points_.push_back(std::min(instants[i], end));
-  points_.erase(std::remove_if(points_.begin(), points_.end(),
-                               [&](double t) { return t < begin || t > end; }),
-                points_.end());
-  points_.push_back(end);
-  std::sort(points_.begin(), points_.end());
-  const auto inside = [&](double time) {
-    return std::min(std::max(time, from + slack), to - slack);
-  };
   const auto reach = [&](double time, double at) {
     while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack)
       reach_instant(k, at);
   };
   // Two guards that are zero at the same instant end steps whose slopes are rounding.
   if (instants.size() == 1 || to - from < kShort * slack) return reach(end, end);
+  take_pieces(k, {from, to, slack}, begin, end);
   reach(begin, begin);
   if (!status_.ok()) return;
-  Sample last = sample(k, inside(begin));
+  Sample last = samples_.front();
   pass_gap(k, last);
   // Where one step ends and the next begins, the slope may jump.
   if (last.slope * curve.end_slope < 0.0 || begins_at_jump_)
     offer(k, last.time, begin == from ? begin_time_ : fixed_);
   if (begin == from) settle(k, last, slack);
-  for (double point : points_) {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
     if (!status_.ok()) return;
-    const Sample next = sample(k, inside(point));
+    const double point = points_[i];
+    const Sample next = samples_[i + 1];
     if (next.time > last.time) search(k, last, next);
     pass(k, next);
     const bool is_break = break_time && point >= to - 2.0 * slack;

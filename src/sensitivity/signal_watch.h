@@ -91,6 +91,11 @@ class SignalWatch {
   bool go_to(std::size_t k, double time);
   double value(std::size_t k, double time);
   Sample sample(std::size_t k, double time);
+  /// The last step [s]. Slopes are taken by `slack` inside of it.
+  struct Piece {
+    double from, to, slack;
+  };
+  void take_pieces(std::size_t k, const Piece& step, double begin, double end);
   void follow(std::size_t k, double from, double to);
   void search(std::size_t k, const Sample& from, const Sample& to);
   void pass_gap(std::size_t k, const Sample& to);
@@ -122,6 +127,7 @@ class SignalWatch {
   Eigen::VectorXd begin_time_, end_time_;  ///< tau' of both ends of the last step; or empty
   const Eigen::VectorXd fixed_;            ///< empty
   std::vector<double> points_;
+  std::vector<Sample> samples_;
   Status status_;
 };
 

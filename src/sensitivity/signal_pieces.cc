@@ -1,0 +1,47 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
+#include "equations/compiled_system.h"
+#include "sensitivity/signal_watch.h"
+
+namespace codesign {
+namespace {
+
+// Pieces of a step, at whose ends slopes are computed: at least so many, and so many in the
+// duration of the study; more where the signal turns round more often than they show.
+constexpr int kLeastPieces = 4, kPiecesPerStudy = 512, kMostPieces = 8192;
+
+}  // namespace
+
+/// Sets points_ to the ends of the pieces between `begin` and `end` and to the instants there, and
+/// samples_ to `begin` and to them, taken inside of the step.
+void SignalWatch::take_pieces(std::size_t k, const Piece& step, double begin, double end) {
+  const std::vector<double>& instants = layout_.entries()[k].instants;
+  const double share = (step.to - step.from) / system_.study().duration;
+  const auto inside = [&](double time) {
+    return std::min(std::max(time, step.from + step.slack), step.to - step.slack);
+  };
+  int pieces = std::max(kLeastPieces, static_cast<int>(std::min(1.0, share) * kPiecesPerStudy));
+  for (bool is_resolved = false; !is_resolved && status_.ok(); pieces *= 2) {
+    points_.clear();
+    for (int piece = 1; piece < pieces; ++piece)
+      points_.push_back(step.from + (step.to - step.from) * piece / pieces);
+    for (std::size_t i = curves_[k].next; i < instants.size() && instants[i] <= end + step.slack;
+         ++i)
+      points_.push_back(std::min(instants[i], end));
+    points_.erase(std::remove_if(points_.begin(), points_.end(),
+                                 [&](double t) { return t < begin || t > end; }),
+                  points_.end());
+    points_.push_back(end);
+    std::sort(points_.begin(), points_.end());
+    samples_.assign(1, sample(k, inside(begin)));
+    for (const double point : points_) samples_.push_back(sample(k, inside(point)));
+    int turns = 0;
+    for (std::size_t i = 1; i < samples_.size(); ++i)
+      if (samples_[i].slope * samples_[i - 1].slope < 0.0) ++turns;
+    // A signal that turns round in every eighth piece may do so more often in one.
+    is_resolved = 8 * turns <= pieces || 2 * pieces > kMostPieces;
+  }
+}
+
+}  // namespace codesign
