@@ -152,6 +152,11 @@ void LoopJacobian::add_loop(int index) {
   loops_.push_back(loop);
 }
 
+std::string LoopJacobian::first_owner(int coordinate) const {
+  const SparseMatrix::InnerIterator entry(pattern_, coordinate);
+  return entry ? owner(static_cast<int>(entry.row())) : std::string();
+}
+
 SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters,
                                     const VectorX<double>& theta,
                                     const Equations<double>& equations) const {
