@@ -21,7 +21,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   parts.rates.reset_pivots();
   if (posture.number == 0.0) parts.list.begin(design, posture, *state);
   State<double> counted = *state;
-  const Status found = parts.list.go_on(design, &posture, &counted, &parts.warnings);
+  Status found = parts.list.go_on(design, &posture, &counted, &parts.warnings);
   state->t = posture.time;
   if (!found.ok()) return found;
   const bool is_singular = parts.list.is_singular(design, posture);
@@ -31,7 +31,7 @@ Status Assembly::solve_next(const std::vector<double>& parameters, Equations<dou
   set_turns(system, parts.loops.tree, posture.theta, state);
   keep_loop_turns(system, counted.turns, state);
   equations->track_turns(state);
-  const Status status = parts.rates.solve(equations, state);
+  Status status = parts.rates.solve(equations, state);
   parts.list.add(posture, *state, is_singular);
   if (!is_singular) return status;
   const bool has_forces = status.ok() && state->z.cwiseAbs().maxCoeff() < kUndetermined;

@@ -4,6 +4,7 @@
 #include "assembly/posture.h"
 #include "equations/equations.h"
 #include "equations/formulas.h"
+#include "math/arrays.h"
 #include "mechanism/constants.h"
 #include "system/system.h"
 

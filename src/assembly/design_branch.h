@@ -7,6 +7,7 @@
 #include "assembly/posture.h"
 #include "assembly/posture_walk.h"
 #include "assembly/start_design.h"
+#include "math/scalar.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {

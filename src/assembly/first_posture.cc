@@ -4,6 +4,7 @@
 #include "assembly/tree_coordinates.h"
 #include "assembly/tree_loops.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "assembly/posture.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

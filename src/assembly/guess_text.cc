@@ -6,6 +6,7 @@
 
 #include "description/motion_study.h"
 #include "description/robot.h"
+#include "math/arrays.h"
 #include "system/tree_kinematics.h"
 #include "text/number_text.h"
 

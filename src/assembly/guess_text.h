@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "math/arrays.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "assembly/tree_loops.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -7,6 +7,7 @@
 #include "assembly/posture.h"
 #include "assembly/scaled_loops.h"
 #include "assembly/start_design.h"
+#include "math/scalar.h"
 #include "sparse/least_squares.h"
 
 namespace codesign {

@@ -6,7 +6,7 @@
 #include "assembly/posture.h"
 #include "assembly/scaled_loops.h"
 #include "assembly/start_design.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 #include "system/state.h"
 
 namespace codesign {

@@ -4,6 +4,7 @@
 #include "assembly/tree_loops.h"
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -6,7 +6,7 @@
 #include "assembly/posture.h"
 #include "assembly/start_design.h"
 #include "equations/turn_follower.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 #include "system/state.h"
 
 namespace codesign {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "assembly/tree_loops.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

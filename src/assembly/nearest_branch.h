@@ -4,6 +4,7 @@
 #include "assembly/loop_closure.h"
 #include "assembly/posture.h"
 #include "assembly/start_design.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

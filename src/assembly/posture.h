@@ -6,7 +6,7 @@
 #include "assembly/loop_jacobian.h"
 #include "assembly/start_design.h"
 #include "assembly/tree_coordinates.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 #include "system/state.h"
 #include "system/tree_kinematics.h"
 

@@ -11,6 +11,7 @@
 #include "assembly/posture.h"
 #include "assembly/start_design.h"
 #include "assembly/start_positions.h"
+#include "math/scalar.h"
 #include "mechanism_codesign/status.h"
 #include "system/state.h"
 

@@ -8,7 +8,8 @@
 #include "assembly/posture.h"
 #include "assembly/start_design.h"
 #include "assembly/tree_loops.h"
-#include "math/arrays.h"
+#include "equations/compiled_system.h"
+#include "math/scalar.h"
 
 namespace codesign {
 

@@ -3,6 +3,7 @@
 
 #include "assembly/tree_loops.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 
 namespace codesign {
 

@@ -5,7 +5,7 @@
 
 #include "assembly/loop_jacobian.h"
 #include "assembly/start_design.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 #include "sparse/least_squares.h"
 
 namespace codesign {

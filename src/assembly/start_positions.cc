@@ -5,6 +5,7 @@
 #include "assembly/nearest_branch.h"
 #include "assembly/tree_loops.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 
 namespace codesign {
 namespace {

@@ -5,6 +5,7 @@
 #include "assembly/loop_closure.h"
 #include "assembly/posture.h"
 #include "assembly/start_design.h"
+#include "math/scalar.h"
 #include "mechanism_codesign/status.h"
 
 namespace codesign {

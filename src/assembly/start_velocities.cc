@@ -7,6 +7,7 @@
 #include "assembly/tree_loops.h"
 #include "control/reference.h"
 #include "equations/compiled_system.h"
+#include "math/arrays.h"
 #include "text/number_text.h"
 
 namespace codesign {

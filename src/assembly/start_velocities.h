@@ -7,7 +7,7 @@
 #include "assembly/posture.h"
 #include "assembly/scaled_loops.h"
 #include "assembly/start_design.h"
-#include "math/arrays.h"
+#include "math/scalar.h"
 #include "mechanism_codesign/status.h"
 #include "sparse/least_squares.h"
 
