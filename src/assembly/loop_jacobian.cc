@@ -41,8 +41,9 @@ BodyKinematics<double> standing(const VectorX<double>& q, int body) {
   BodyKinematics<double> k;
   k.at_rest = body < 0;
   if (k.at_rest) return k;
-  k.r = q.segment<3>(kBodySize * body);
-  k.p = q.segment<4>(kBodySize * body + 3);
+  const Eigen::Index first = Eigen::Index{kBodySize} * body;
+  k.r = q.segment<3>(first);
+  k.p = q.segment<4>(first + 3);
   k.update_rotation();
   return k;
 }
@@ -150,6 +151,11 @@ void LoopJacobian::add_loop(int index) {
        ++row)
     add_row(row, pair.name);
   loops_.push_back(loop);
+}
+
+std::string LoopJacobian::first_owner(int coordinate) const {
+  const SparseMatrix::InnerIterator entry(pattern_, coordinate);
+  return entry ? owner(static_cast<int>(entry.row())) : std::string();
 }
 
 SparseMatrix LoopJacobian::evaluate(const std::vector<double>& parameters,

@@ -69,6 +69,8 @@ class LoopJacobian {
   int first_coupling_row() const { return first_coupling_row_; }
   /// Name of the loop or coupling that row `row` of this matrix belongs to.
   const std::string& owner(int row) const { return owners_[to_index(row)]; }
+  /// Name of the first loop or coupling that depends on a coordinate; empty if there is none.
+  std::string first_owner(int coordinate) const;
   /// Coordinates that a loop or coupling depends on, ascending; the others have empty columns.
   const std::vector<int>& coordinates() const { return coordinates_; }
 

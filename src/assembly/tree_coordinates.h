@@ -32,6 +32,7 @@ std::string tree_coordinates(const System& system, const TreeLayout& tree,
 struct GivenStart {
   std::vector<bool> position, guess, velocity, velocity_beside;
 
+  GivenStart() = default;
   /// @param tree a motor behind an elastic gear whose position is given does not follow its joint
   /// any more: it is taken out of TreeLayout::motors.
   GivenStart(const System& system, TreeLayout* tree);

@@ -11,6 +11,7 @@
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "observation/observer.h"
+#include "text/cancel.h"
 #include "text/number_text.h"
 
 namespace codesign {

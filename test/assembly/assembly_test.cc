@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "assembly/loops_to_close.h"
 #include "description/study.h"
-#include "equations/compiled.h"
 
 namespace codesign {
 namespace {
@@ -14,17 +15,10 @@ namespace {
 using C = std::complex<double>;
 constexpr double kCompliance = 1e-9;
 
-/// Two links, of length 1 and `length` (the right one), on ground hinges 1.2 apart; a loop joins
-/// their tips.
-std::string triangle(const std::string& distance = "1.2") {
-  return "<robot name='t' xmlns:codesign='urn:t'><codesign:parameter name='length' value='1' "
-         "lower='0.5' upper='2'/><link name='ground'/>" +
-         bar("left") + bar("right") + hinge("left_hinge", "ground", "left", "0 0 0") +
-         hinge("right_hinge", "ground", "right", distance + " 0 0") +
-         "<loop name='tip' type='continuous'><predecessor link='left'><origin xyz='0 0 "
-         "-1'/></predecessor>"
-         "<successor link='right'><origin xyz='0 0 -1' codesign:xyz='0 0 "
-         "${-length}'/></successor><axis xyz='0 1 0'/></loop></robot>";
+double largest_gap(Compiled* c) {
+  Eigen::VectorXd errors, rates;
+  c->equations.constraint_errors(c->state, &errors, &rates);
+  return std::max(errors.cwiseAbs().maxCoeff(), rates.cwiseAbs().maxCoeff());
 }
 
 TEST(Assembly, GivenPositionsStayAndTheLoopIsClosed) {
@@ -158,6 +152,47 @@ TEST(Assembly, InitialSensitivitiesAreThoseOfTheAssembledStart) {
   const Eigen::VectorXd z_rho = moved.z.imag() / step;
   EXPECT_LT((z_rho - (plus.state.z - minus.state.z) / (2.0 * h)).norm(),
             1e-6 * (1.0 + z_rho.norm()));
+}
+
+TEST(Assembly, TheStudysCoordinateStaysAndTheOthersClose) {
+  Compiled c(four_bar(),
+             let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"),
+             kCompliance);
+  ASSERT_TRUE(c.start().ok());
+  // Somewhere else on the way, with the coupler a little off.
+  TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
+  from.theta << 1.1, 1.12, -1.09;
+  from.rate << 0.7, 0.6, -0.9;
+  c.state.t = 0.4;
+  ASSERT_TRUE(c.assembly.solve_from(from, {}, &c.equations, &c.state).ok());
+  EXPECT_EQ(c.state.t, 0.4);
+  EXPECT_NEAR(c.assembly.theta()[0], 1.1, 1e-15);
+  EXPECT_NEAR(c.assembly.theta()[1], 1.1, 1e-11);
+  EXPECT_NEAR(c.assembly.theta()[2], -1.1, 1e-11);
+  EXPECT_LT(largest_gap(&c), 1e-11);
+  TreeCoordinates found;
+  ASSERT_EQ(tree_coordinates(c.system, c.assembly.tree(), c.state, c.assembly.theta(), &c.equations,
+                             &found),
+            "");
+  EXPECT_NEAR(found.rate[0], 0.7, 1e-12);
+  EXPECT_NEAR(found.rate[2], -0.7, 1e-11);
+  // The next start is the study's again.
+  ASSERT_TRUE(c.start().ok());
+  EXPECT_NEAR(c.assembly.theta()[1], 0.6, 1e-12);
+}
+
+TEST(Assembly, PositionsThatFitTheStartAloneAreReleased) {
+  Compiled c(
+      four_bar(),
+      let_go(
+          "{left_hinge: {position: 0.6}, right_hinge: {position: 0.6}, left_pin: {position: -0.6}}",
+          "left_hinge/velocity"),
+      kCompliance);
+  ASSERT_TRUE(c.start().ok());
+  TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
+  from.theta << 0.7, 0.72, -0.71;
+  ASSERT_TRUE(c.assembly.solve_from(from, {}, &c.equations, &c.state).ok());
+  EXPECT_LT(largest_gap(&c), 1e-11);
 }
 
 }  // namespace

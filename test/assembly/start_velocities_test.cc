@@ -1,9 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Velocities of a start that the study gives in part, or that a loop forbids.
+#include "assembly/start_velocities.h"
+
 #include <gtest/gtest.h>
 
 #include "assembly/assembly.h"
-#include "equations/compiled.h"
+#include "assembly/loops_to_close.h"
 #include "equations/formulas.h"
 
 namespace codesign {
@@ -19,7 +21,7 @@ std::string arm_at_a_dead_centre() {
                "0.1'/></successor><codesign:length value='1.4142135623730951'/></loop>");
 }
 
-TEST(AssemblyVelocities, WhatALoopForbidsByALeverOfRoundingIsSaid) {
+TEST(StartVelocities, WhatALoopForbidsByALeverOfRoundingIsSaid) {
   for (const char* coordinates : {"absolute", "joint"})
     for (const char* velocity : {"-0.16", "3.0", "1e-6"}) {
       Compiled c(arm_at_a_dead_centre(),
@@ -57,7 +59,7 @@ std::string plate_on_legs() {
 }
 
 // The legs can follow any motion of the plate: what is not given of it rests.
-TEST(AssemblyVelocities, WhatAFloatingJointDoesNotSayRests) {
+TEST(StartVelocities, WhatAFloatingJointDoesNotSayRests) {
   for (const char* given :
        {"angular_velocity: [0.5, 0.3, 1.0]", "linear_velocity: [0.1, -0.2, 0.4]",
         "translation: [0.01, 0, 0.02], angular_velocity: [0.5, 0.3, 1.0]"}) {
@@ -79,6 +81,25 @@ TEST(AssemblyVelocities, WhatAFloatingJointDoesNotSayRests) {
       EXPECT_NEAR(value("plate/angular_velocity" + axis), angular[k], 1e-9) << given << axis;
     }
   }
+}
+
+TEST(StartVelocities, FollowThoseThatAreGiven) {
+  LoopsToClose c(four_bar(), "{left_hinge: {position: 0.6, velocity: 2.0}}");
+  StartVelocities velocities(c.loops);
+  StartDependents dependents;
+  std::vector<std::size_t> contradicting;
+  Posture posture = c.at({0.6, 0.6, -0.6});
+  posture.rate << 2.0, 0.0, 0.0;
+  ASSERT_TRUE(velocities.find(c.design, &posture, &dependents, &contradicting).ok());
+  EXPECT_LT((posture.rate - Eigen::Vector3d(2.0, 2.0, -2.0)).norm(), 1e-12);
+  EXPECT_EQ(dependents.positions.columns, (std::vector<int>{1, 2}));
+  EXPECT_EQ(dependents.velocities.columns, (std::vector<int>{1, 2}));
+  // A coordinate whose rate is given does not follow, and then the loop cannot.
+  posture.given.velocity[1] = posture.given.velocity[2] = true;
+  posture.rate << 2.0, 1.0, 0.0;
+  EXPECT_EQ(velocities.find(c.design, &posture, &dependents, &contradicting).code,
+            StatusCode::kInitialVelocityFailed);
+  EXPECT_EQ(contradicting, std::vector<std::size_t>{0});
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Of several branches the one nearest to the guesses, theory (19c), against closed forms.
+#include "assembly/nearest_branch.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "assembly/assembly.h"
-#include "equations/compiled.h"
+#include "assembly/loops_to_close.h"
 
 namespace codesign {
 namespace {
@@ -35,7 +37,7 @@ std::string start_of(double q, const std::string& guesses) {
          "}\n";
 }
 
-TEST(AssemblyGuess, TheSliderIsOnTheSideOfItsGuess) {
+TEST(NearestBranch, TheSliderIsOnTheSideOfItsGuess) {
   for (const double a : {0.5, 0.7, 0.8, 0.9, 0.95, 0.99, 0.9999})
     for (const double q : {0.3, 1.0, 1.4, 1.57, 2.5, -1.2})
       for (const double off : {-0.4, 0.05, 0.3}) {
@@ -55,7 +57,7 @@ TEST(AssemblyGuess, TheSliderIsOnTheSideOfItsGuess) {
 }
 
 // The guess of the rod's angle: the slider follows.
-TEST(AssemblyGuess, OfAnotherJointOfTheLoop) {
+TEST(NearestBranch, OfAnotherJointOfTheLoop) {
   for (const double a : {0.5, 0.9, 0.99})
     for (const double guess : {-2.0, -0.9, -3.3, 2.9}) {
       Compiled c(crank_and_slider(a, 1.0),
@@ -72,7 +74,7 @@ TEST(AssemblyGuess, OfAnotherJointOfTheLoop) {
 }
 
 // From a slider far from any solution, Newton's method did not close the loop.
-TEST(AssemblyGuess, ALoopClosesFromAGuessThatIsFarOff) {
+TEST(NearestBranch, ALoopClosesFromAGuessThatIsFarOff) {
   for (const double guess : {0.01, -0.01, 3.0, -3.0}) {
     Compiled c(crank_and_slider(0.5, 1.0),
                start_of(1.5707963267948966, ", s: {guess: " + std::to_string(guess) + "}"));
@@ -82,13 +84,31 @@ TEST(AssemblyGuess, ALoopClosesFromAGuessThatIsFarOff) {
   }
 }
 
-TEST(AssemblyGuess, IsTheSameInBothCoordinates) {
+TEST(NearestBranch, IsTheSameInBothCoordinates) {
   for (const char* coordinates : {"absolute", "joint"}) {
     Compiled c(crank_and_slider(0.9, 1.0),
                start_of(1.0, ", s: {guess: 1.2}") + "solver: {coordinates: " + coordinates + "}\n");
     ASSERT_TRUE(c.start().ok());
     EXPECT_NEAR(c.assembly.theta()[2], 1.1393115, 1e-5) << coordinates;
   }
+}
+
+TEST(NearestBranch, TakesThePlaceOfAFarSolution) {
+  LoopsToClose c(triangle(), "{left_hinge: {guess: -0.5}, right_hinge: {guess: 0.5}}");
+  LoopClosure closure(c.loops);
+  const double below = std::asin(0.6), above = M_PI - below;
+  Posture posture = c.at({-above, above});
+  posture.dependent = posture.moved = {0, 1};
+  const Eigen::VectorXd guesses = Eigen::Vector2d(-0.5, 0.5);
+  EXPECT_EQ(take_nearest_branch(c.loops, c.design, Closure::kClosed, guesses, &closure, &posture),
+            Closure::kClosed);
+  EXPECT_NEAR(posture.theta[0], -below, 1e-12);
+  // Without guesses every solution is as good.
+  posture = c.at({-above, above});
+  posture.given.guess = {false, false};
+  EXPECT_EQ(take_nearest_branch(c.loops, c.design, Closure::kNear, guesses, &closure, &posture),
+            Closure::kNear);
+  EXPECT_EQ(posture.theta[0], -above);
 }
 
 }  // namespace

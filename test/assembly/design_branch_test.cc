@@ -1,61 +1,17 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "assembly/design_branch.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "assembly/assembly.h"
-#include "equations/compiled.h"
+#include "assembly/loops_to_close.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kSoft = 1e-9;  // compliance of the parallelogram's redundant rows
-
-double largest_gap(Compiled* c) {
-  Eigen::VectorXd errors, rates;
-  c->equations.constraint_errors(c->state, &errors, &rates);
-  return std::max(errors.cwiseAbs().maxCoeff(), rates.cwiseAbs().maxCoeff());
-}
-
-TEST(AssemblyContinuation, TheStudysCoordinateStaysAndTheOthersClose) {
-  Compiled c(four_bar(),
-             let_go("{left_hinge: {position: 0.6, velocity: 2.0}}", "left_hinge/velocity"), kSoft);
-  ASSERT_TRUE(c.start().ok());
-  // Somewhere else on the way, with the coupler a little off.
-  TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
-  from.theta << 1.1, 1.12, -1.09;
-  from.rate << 0.7, 0.6, -0.9;
-  c.state.t = 0.4;
-  ASSERT_TRUE(c.assembly.solve_from(from, {}, &c.equations, &c.state).ok());
-  EXPECT_EQ(c.state.t, 0.4);
-  EXPECT_NEAR(c.assembly.theta()[0], 1.1, 1e-15);
-  EXPECT_NEAR(c.assembly.theta()[1], 1.1, 1e-11);
-  EXPECT_NEAR(c.assembly.theta()[2], -1.1, 1e-11);
-  EXPECT_LT(largest_gap(&c), 1e-11);
-  TreeCoordinates found;
-  ASSERT_EQ(tree_coordinates(c.system, c.assembly.tree(), c.state, c.assembly.theta(), &c.equations,
-                             &found),
-            "");
-  EXPECT_NEAR(found.rate[0], 0.7, 1e-12);
-  EXPECT_NEAR(found.rate[2], -0.7, 1e-11);
-  // The next start is the study's again.
-  ASSERT_TRUE(c.start().ok());
-  EXPECT_NEAR(c.assembly.theta()[1], 0.6, 1e-12);
-}
-
-TEST(AssemblyContinuation, PositionsThatFitTheStartAloneAreReleased) {
-  Compiled c(
-      four_bar(),
-      let_go(
-          "{left_hinge: {position: 0.6}, right_hinge: {position: 0.6}, left_pin: {position: -0.6}}",
-          "left_hinge/velocity"),
-      kSoft);
-  ASSERT_TRUE(c.start().ok());
-  TreeCoordinates from{c.assembly.theta(), Eigen::VectorXd::Zero(3)};
-  from.theta << 0.7, 0.72, -0.71;
-  ASSERT_TRUE(c.assembly.solve_from(from, {}, &c.equations, &c.state).ok());
-  EXPECT_LT(largest_gap(&c), 1e-11);
-}
+constexpr double kSoft = 1e-9;  // compliance of redundant rows
 
 /// A planar crank-rocker whose lengths are parameters; the crank's position is given.
 std::string crank_rocker() {
@@ -107,7 +63,7 @@ std::vector<Eigen::VectorXd> along_the_way(Compiled* c, int steps, bool from_the
   return positions;
 }
 
-TEST(AssemblyContinuation, PositionsAreContinuousInTheDesign) {
+TEST(DesignBranch, PositionsAreContinuousInTheDesign) {
   int jumps_without = 0;
   for (int k = 0; k < 12; ++k) {
     const double crank = 0.5235987755982988 * k;
@@ -130,7 +86,7 @@ TEST(AssemblyContinuation, PositionsAreContinuousInTheDesign) {
   EXPECT_GT(jumps_without, 0) << "the study's guesses alone lead elsewhere";
 }
 
-TEST(AssemblyContinuation, ThePositionDoesNotDependOnDesignsSolvedBefore) {
+TEST(DesignBranch, ThePositionDoesNotDependOnDesignsSolvedBefore) {
   Compiled forward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft),
       backward(crank_rocker(), crank_at(2.0943951, 1.0, 1.5), kSoft);
   std::vector<Eigen::VectorXd> there = along_the_way(&forward, 20),
@@ -141,7 +97,7 @@ TEST(AssemblyContinuation, ThePositionDoesNotDependOnDesignsSolvedBefore) {
     EXPECT_EQ(there[k], back[k]) << "to the last bit, " << k;
 }
 
-TEST(AssemblyContinuation, TheGuessesOfTheWarningLeadToThePosition) {
+TEST(DesignBranch, TheGuessesOfTheWarningLeadToThePosition) {
   for (int k = 0; k < 12; ++k) {
     const double crank = 0.5235987755982988 * k;
     Compiled c(crank_rocker(), crank_at(crank, 1.0, 1.5), kSoft);
@@ -156,7 +112,7 @@ TEST(AssemblyContinuation, TheGuessesOfTheWarningLeadToThePosition) {
   }
 }
 
-TEST(AssemblyContinuation, WhereTheLoopOpensOnTheWayTheWarningSaysSo) {
+TEST(DesignBranch, WhereTheLoopOpensOnTheWayTheWarningSaysSo) {
   // A crank as long as this does not turn fully at the model's design: on the way from b = 0.25 to
   // 0.7 the loop cannot be closed at 0.5.
   Compiled c(crank_rocker(), crank_at(3.1, 1.0, 1.5), kSoft);
@@ -170,31 +126,47 @@ TEST(AssemblyContinuation, WhereTheLoopOpensOnTheWayTheWarningSaysSo) {
         << c.assembly.warnings()[0].message;
 }
 
-TEST(AssemblyContinuation, AStretchedLinkageBendsByItself) {
-  // Three bars in a line, 0.1 longer than the gap that they bridge.
-  const std::string stretched = robot(
-      bar("one") + bar("two") + bar("three") + hinge("h1", "ground", "one", "0 0 0") +
-      hinge("h2", "one", "two", "0 0 -1") + hinge("h3", "two", "three", "0 0 -1") +
-      "<loop name='end' type='continuous'><predecessor link='three'><origin xyz='0 0 "
-      "-1'/></predecessor>"
-      "<successor link='ground'><origin xyz='0 0 -2.9'/></successor><axis xyz='0 1 0'/></loop>");
-  Compiled c(stretched, let_go("{}", "h1/velocity"), kSoft);
-  ASSERT_TRUE(c.start().ok());
-  ASSERT_EQ(c.assembly.warnings().size(), 1U);
-  EXPECT_EQ(c.assembly.warnings()[0].code, "guessed_start");
-  EXPECT_NE(c.assembly.warnings()[0].message.find("h1: {guess: 0.01}"), std::string::npos)
-      << c.assembly.warnings()[0].message;
-  EXPECT_LT(largest_gap(&c), 1e-11);
-  const Eigen::VectorXd theta = c.assembly.theta();
-  ASSERT_TRUE(c.start().ok());
-  EXPECT_EQ(c.assembly.theta(), theta);
-  // With the guesses that the warning shows there is none.
-  Compiled guessed(
-      stretched, let_go("{h1: {guess: 0.01}, h2: {guess: 0.01}, h3: {guess: 0.01}}", "h1/velocity"),
-      kSoft);
-  ASSERT_TRUE(guessed.start().ok());
-  EXPECT_TRUE(guessed.assembly.warnings().empty());
-  EXPECT_LT((guessed.assembly.theta() - theta).cwiseAbs().maxCoeff(), 1e-12);
+TEST(DesignBranch, KeepsAPostureThatIsItsOwnContinuationToTheLastBit) {
+  LoopsToClose c(triangle());
+  LoopNewton newton(c.loops);
+  const std::vector<double> longer{1.2};
+  DesignBranch branch(c.loops, c.design.parameters, &newton);
+  EXPECT_FALSE(branch.is_known());
+  Posture own = c.at({-std::asin(0.6), std::asin(0.6)});
+  own.dependent = own.moved = {0, 1};
+  branch.begin(own);
+  EXPECT_TRUE(branch.is_known());
+  // The two positions of the longer bar; the own one lies below.
+  const double inner = std::acos((1.0 + 1.44 - 1.44) / 2.4),
+               other = std::acos((1.44 + 1.44 - 1.0) / 2.88);
+  const std::vector<double> below{inner - 0.5 * M_PI, 0.5 * M_PI - other},
+      above{-inner - 0.5 * M_PI, 0.5 * M_PI + other};
+  c.compiled.equations.set_design(longer);
+  for (const bool is_own : {true, false}) {
+    Posture found = c.at(is_own ? below : above);
+    found.rate << 1.0, 2.0;
+    const Posture before = found;
+    Warnings warnings;
+    EXPECT_TRUE(branch.keep({}, c.design.at(longer), &found, &warnings).ok());
+    EXPECT_EQ(c.compiled.equations.parameters(), longer);
+    EXPECT_EQ(found.rate, before.rate);
+    EXPECT_EQ(warnings.size(), is_own ? 0U : 1U);
+    EXPECT_NEAR(found.theta[0], below[0], 1e-12);
+    if (is_own) {
+      EXPECT_EQ(found.theta, before.theta);
+    }
+  }
+}
+
+TEST(DesignBranch, IsNotKnownWhereAllCoordinatesHadToMove) {
+  LoopsToClose c(triangle());
+  LoopNewton newton(c.loops);
+  DesignBranch branch(c.loops, c.design.parameters, &newton);
+  Posture own = c.at({-std::asin(0.6), std::asin(0.6)});
+  own.dependent = {0};
+  own.moved = {0, 1};
+  branch.begin(own);
+  EXPECT_FALSE(branch.is_known());
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// The part of Assembly that holds joints which start stuck, doc/theory.md (13h).
+#include "assembly/stuck_joints.h"
+
 #include <cmath>
+#include <complex>
 #include <limits>
 
-#include "assembly/assembly.h"
+#include "equations/compiled_system.h"
 #include "equations/formulas.h"
 #include "equations/iteration_matrix.h"
 #include "math/arrays.h"
@@ -11,9 +13,10 @@
 
 namespace codesign {
 
-/// A joint that starts stuck and does not move, as far as its own start says: a loop's joint
-/// follows the others.
-Status Assembly::require_rest(const State<double>& state, Equations<double>* equations) {
+StuckJoints::StuckJoints(const CompiledSystem& system) : system_(system), stuck_(system) {}
+
+Status StuckJoints::require_rest(const State<double>& state, Equations<double>* equations,
+                                 std::vector<std::size_t>* contradicting) const {
   if (system_.stuck().empty()) return {};
   constexpr double kNoSlip = 1e-9;
   const double allowed =
@@ -24,7 +27,7 @@ Status Assembly::require_rest(const State<double>& state, Equations<double>* equ
     const ContactSlip<double> slip = bristle_slip(equations->formulas().view(), contact);
     for (int k = 0; k < contact.size; ++k)
       if (std::abs(slip.motion[to_index(k)].rate) > allowed) {
-        contradicting_.push_back(stuck.start);
+        contradicting->push_back(stuck.start);
         return {StatusCode::kInitialVelocityFailed, 0.0,
                 "joint '" + system_.study().initial_state[stuck.start].joint +
                     "' shall start stuck, but moves with the velocities that are given"};
@@ -33,9 +36,10 @@ Status Assembly::require_rest(const State<double>& state, Equations<double>* equ
   return {};
 }
 
-/// Slip accelerations at the solution of hold_stuck() and their derivatives by the deflections,
+/// Slip accelerations at the last solution of `rates` and their derivatives by the deflections,
 /// which change the rates by -G_z^-1 G_zeta.
-void Assembly::find_response(const State<double>& state, Equations<double>* equations) {
+void StuckJoints::find_response(const State<double>& state, const RateSolution& rates,
+                                Equations<double>* equations) {
   VectorX<double> a, limits, moved_a, unused, change;
   equations->stuck_slips(state, &a, &limits);
   Linearization<double> derivatives;
@@ -49,7 +53,7 @@ void Assembly::find_response(const State<double>& state, Equations<double>* equa
     direction.s[stuck_.state(k)] = 1.0;
     directional_derivative(system_, derivatives, direction, &change);
     change.conservativeResize(state.z.size());
-    rates_.solve_linear(change);
+    rates.solve_linear(change);
     moved.z = state.z - change;
     equations->stuck_slips(moved, &moved_a, &unused);
     response.col(k) = moved_a - a;
@@ -57,23 +61,24 @@ void Assembly::find_response(const State<double>& state, Equations<double>* equa
   stuck_.set_slips(a, response, limits);
 }
 
-Status Assembly::hold_stuck(Equations<double>* equations, State<double>* state) {
-  if (stuck_.is_empty()) return rates_.solve(equations, state);
+Status StuckJoints::hold(Equations<double>* equations, State<double>* state, RateSolution* rates,
+                         Warnings* warnings) {
+  if (stuck_.is_empty()) return rates->solve(equations, state);
   constexpr int kIterations = 50;
   const double converged = system_.compliance() == 0.0 ? 1e-11 : 1e-7;
   double previous = std::numeric_limits<double>::infinity();
   stuck_.begin();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    if (Status status = rates_.solve(equations, state); !status.ok()) return status;
-    find_response(*state, equations);
+    if (Status status = rates->solve(equations, state); !status.ok()) return status;
+    find_response(*state, *rates, equations);
     const double change = stuck_.improve();
     if (!std::isfinite(change)) break;
     for (Eigen::Index k = 0; k < stuck_.size(); ++k)
       state->s[stuck_.state(k)] = stuck_.deflections()[k];
     if (change < 1e-15 || (change < converged && change >= 0.5 * previous)) {
-      if (Status status = rates_.solve(equations, state); !status.ok()) return status;
-      find_response(*state, equations);
-      warn_of_slides();
+      if (Status status = rates->solve(equations, state); !status.ok()) return status;
+      find_response(*state, *rates, equations);
+      warn_of_slides(warnings);
       return {};
     }
     previous = change;
@@ -83,26 +88,26 @@ Status Assembly::hold_stuck(Equations<double>* equations, State<double>* state) 
           "or begin to slide"};
 }
 
-void Assembly::warn_of_slides() {
-  for (std::size_t start : stuck_.sliding()) {
+void StuckJoints::warn_of_slides(Warnings* warnings) const {
+  for (const std::size_t start : stuck_.sliding()) {
     const InitialJointState& initial = system_.study().initial_state[start];
     append({warn("start_slides",
                  {initial.where, "initial_state." + initial.joint + ".stuck",
                   "friction cannot hold this joint at the start: its bristles start with their "
                   "largest deflection, and it slides",
                   "true", "a smaller load, more friction, or no `stuck`"})},
-           &warnings_);
+           warnings);
   }
 }
 
-/// Sets the deflections with their exact first-order parts: those of the slip accelerations at
-/// fixed deflections are taken back by the deflections.
 template <class T>
-void Assembly::extend_stuck(const State<double>& start, Equations<T>* equations,
-                            ExtensionWorkspace<T>* workspace, State<T>* state) const {
+void StuckJoints::extend(const State<double>& start, const RateSolution& rates,
+                         Equations<T>* equations, ExtensionWorkspace<T>* workspace,
+                         State<T>* state) const {
+  if (stuck_.is_empty()) return;
   for (Eigen::Index k = 0; k < stuck_.size(); ++k)
     state->s[stuck_.state(k)] = T(start.s[stuck_.state(k)]);
-  rates_.extend(start.z, equations, &workspace->rates, state);
+  rates.extend(start.z, equations, &workspace->rates, state);
   VectorX<T> a(stuck_.size()), limits(stuck_.size()), zeta(stuck_.size());
   equations->stuck_slips(*state, &a, &limits);
   for (Eigen::Index k = 0; k < stuck_.size(); ++k) zeta[k] = state->s[stuck_.state(k)];
@@ -110,9 +115,9 @@ void Assembly::extend_stuck(const State<double>& start, Equations<T>* equations,
   for (Eigen::Index k = 0; k < stuck_.size(); ++k) state->s[stuck_.state(k)] = zeta[k];
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                \
-  template void Assembly::extend_stuck<T>(const State<double>&, Equations<T>*, \
-                                          ExtensionWorkspace<T>*, State<T>*) const;
+#define CODESIGN_INSTANTIATE(T)                                                                  \
+  template void StuckJoints::extend<T>(const State<double>&, const RateSolution&, Equations<T>*, \
+                                       ExtensionWorkspace<T>*, State<T>*) const;
 CODESIGN_INSTANTIATE(std::complex<double>)
 CODESIGN_INSTANTIATE(Lanes<4>)
 CODESIGN_INSTANTIATE(Lanes<8>)
