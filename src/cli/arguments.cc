@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -88,6 +89,22 @@ void set_base(const std::string& text, Arguments* arguments) {
   arguments->floating_base = true;
 }
 
+void set_friction(const std::string& text, Arguments* arguments) {
+  for (std::size_t k = 0; k < kLinearFrictionNames.size(); ++k)
+    if (text == kLinearFrictionNames[k]) {
+      arguments->friction = static_cast<LinearFriction>(k);
+      return;
+    }
+  throw UsageError("--friction must be off or regularised, not \"" + text + "\"");
+}
+
+void set_time(const std::string& text, Arguments* arguments) {
+  const std::optional<double> time = parse_number(text);
+  if (!time || !std::isfinite(*time) || *time < 0.0)
+    throw UsageError("--at must be a time of the run in seconds, 0 or more, not \"" + text + "\"");
+  arguments->time = *time;
+}
+
 void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   if (!arguments->output.empty() && arguments->output != path)
     throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path +
@@ -102,7 +119,7 @@ const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
   static const Names kOfDesigns = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
-                                   "gradient", "optimize", "identify", "excite"};
+                                   "linearize", "gradient", "optimize", "identify", "excite"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
@@ -122,12 +139,14 @@ const std::map<std::string, Option>& options() {
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->fill = true; }}},
       {"--run",
        {Value::kRequired,
-        {"simulate", "efforts", "equilibrium", "gradient"},
+        {"simulate", "efforts", "equilibrium", "linearize", "gradient"},
         [](const std::string& text, Arguments* to) { to->run = text; }}},
-      {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium"}, add_signals}},
+      {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium", "linearize"}, add_signals}},
+      {"--friction", {Value::kRequired, {"equilibrium", "linearize"}, set_friction}},
+      {"--at", {Value::kRequired, {"linearize"}, set_time}},
       {"--csv",
        {Value::kRequired,
-        {"simulate", "efforts"},
+        {"simulate", "efforts", "linearize"},
         [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
@@ -248,6 +267,16 @@ const CommandHelp kCommands[] = {
     {"equilibrium",
      R"(  equilibrium MODEL STUDY  a posture near the start in which everything rests, and its stability
     --signals A,B          further signals there, such as reactions
+    --friction HOW         whether friction counts for its stability: off (default) or regularised,
+                           with the slope of its law at rest
+    --run NAME             one of the study's runs, in place of the study itself
+)"},
+    {"linearize",
+     R"(  linearize MODEL STUDY    small motions about the equilibrium: poles, margins of each controller
+    --at TIME              about the state of the run at this time [s], in place of the equilibrium
+    --signals A,B          the outputs of C and D
+    --csv FILE             the frequency response of each controller's open loop
+    --friction HOW         whether friction counts about rest: off (default) or regularised
     --run NAME             one of the study's runs, in place of the study itself
 )"},
     {"gradient",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linear/linear_study.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
 
@@ -20,7 +21,7 @@ class UsageError : public std::runtime_error {
 /// name their command.
 struct Arguments {
   std::string topic;  ///< help; the command that it is about, empty: all
-  /// check, urdf, overlay, simulate, efforts, equilibrium, gradient, optimize, identify, excite,
+  /// check, urdf, overlay, simulate, efforts, equilibrium, linearize, gradient, optimize, identify, excite,
   /// new, help or version
   std::string command;
   std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
@@ -34,8 +35,11 @@ struct Arguments {
   bool sticks = false;               ///< urdf; with_sticks()
   bool fill = false;                 ///< urdf; write_filled_urdf()
   std::string run;                   ///< of the study's runs; empty: the study itself
-  std::vector<std::string> signals;  ///< simulate, efforts, equilibrium
-  std::string csv;                   ///< simulate, efforts; empty: standard output
+  std::vector<std::string> signals;  ///< simulate, efforts, equilibrium, linearize
+  /// equilibrium, linearize; what of friction about rest counts
+  LinearFriction friction = LinearFriction::kOff;
+  double time = -1.0;                ///< linearize; [s] of the run, negative: about the equilibrium
+  std::string csv;                   ///< simulate, efforts, linearize; empty: standard output
   int samples = 101;                 ///< simulate, efforts; equally spaced instants, at least 2
   bool verify = false;               ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions

@@ -24,6 +24,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "simulate") return simulate(arguments, console);
   if (arguments.command == "efforts") return efforts(arguments, console);
   if (arguments.command == "equilibrium") return equilibrium(arguments, console);
+  if (arguments.command == "linearize") return linearize(arguments, console);
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
   if (arguments.command == "identify") return identify(arguments, console);

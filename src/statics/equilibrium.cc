@@ -8,6 +8,7 @@
 #include "control/reference.h"
 #include "equations/compiled_system.h"
 #include "identification/effort/driven_motion.h"
+#include "linear/linear_coordinates.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "observation/observer.h"
@@ -21,7 +22,7 @@ constexpr int kMostTries = 40;        // of shorter steps
 constexpr double kLongestStep = 0.2;  // of any coordinate [rad or m]
 constexpr double kSmallStep = 1e-10;  // relative to the coordinates; the next one would be rounding
 constexpr double kRankOfRows = 1e-8;  // as rounding leaves of rows that depend on each other
-constexpr double kNeutral = 1e-3;     // growth or turn of a mode in the duration of the study
+constexpr double kLongest = 1e3;      // time that a step stands for, in durations of the study
 constexpr double kGrowthInAStep = 0.5;  // of a motion that leads away
 
 /// The function at t = 0, for ever.
@@ -109,7 +110,7 @@ class RestingMechanism {
   Status linearize(Eigen::MatrixXd* N, Eigen::MatrixXd* slopes) {
     if (Status status = motion_.linearize(state_); !status.ok()) return status;
     motion_.equations().linearize(state_, &derivatives_);
-    *N = orthogonal_complement(constraint_rows().transpose(), kRankOfRows);
+    *N = orthogonal_complement(constraint_rows(*system_.system, derivatives_).transpose(), kRankOfRows);
     slopes->resize(layout_.n, N->cols());
     State<double> direction;
     direction.resize(layout_);
@@ -127,33 +128,10 @@ class RestingMechanism {
   void observe(Observer* observer, Frame* frame) {
     observer->observe(state_, 0.0, theta_, &motion_.equations(), frame);
   }
-  /// The rates of the joints of `observer` at a velocity.
-  std::vector<double> joint_rates(const Eigen::VectorXd& v, Observer* observer) {
-    State<double> moving = state_;
-    moving.v = v;
-    Frame frame;
-    observer->observe(moving, 0.0, theta_, &motion_.equations(), &frame);
-    std::vector<double> rates;
-    for (const JointSample& joint : frame.joints) rates.push_back(joint.velocity);
-    return rates;
-  }
+  const State<double>& state() const { return state_; }
+  const VectorX<double>& theta() const { return theta_; }
 
  private:
-  /// The rows of Phi_q that are enforced.
-  Eigen::MatrixXd constraint_rows() const {
-    const System& system = *system_.system;
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(layout_.constraints(), layout_.n);
-    const Sparsity& pattern = system_.system->patterns().rate;
-    for (int row = 0; row < layout_.constraints(); ++row) {
-      const int of = layout_.lambda_column(row);
-      for (int e = pattern.first(of); e < pattern.first(of + 1); ++e)
-        if (pattern.column(e) < layout_.n)
-          rows(row, pattern.column(e)) = derivatives_.rate[to_index(e)];
-    }
-    for (const int row : system.dropped_rows()) rows.row(row).setZero();
-    return rows;
-  }
-
   const DrivenSystem system_;  ///< nothing is driven
   const Layout& layout_;
   const std::vector<double> parameters_;
@@ -237,57 +215,11 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
   return not_found(*mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
 }
 
-std::vector<double> scaled(std::vector<double> rates) {
-  double largest = 0.0;
-  for (const double rate : rates)
-    if (std::abs(rate) > std::abs(largest) * (1.0 + 1e-9)) largest = rate;
-  for (double& rate : rates) rate = largest == 0.0 ? 0.0 : rate / largest;
-  return rates;
-}
-
-void describe_modes(const FreeMotions& free, double duration, RestingMechanism* mechanism,
-                    Observer* observer, Equilibrium* found) {
-  for (Eigen::Index k = 0; k < free.eigen.values.size(); ++k) {
-    const Eigen::VectorXd v = free.N * free.eigen.vectors.col(k).real();
-    found->modes.push_back({free.eigen.values[k], scaled(mechanism->joint_rates(v, observer))});
-  }
-  std::stable_sort(found->modes.begin(), found->modes.end(),
-                   [](const EquilibriumMode& one, const EquilibriumMode& other) {
-                     return one.growth() != other.growth() ? one.growth() > other.growth()
-                                                           : one.frequency() < other.frequency();
-                   });
-  for (const EquilibriumMode& mode : found->modes) {
-    const bool is_neutral = std::sqrt(std::abs(mode.square)) * duration < kNeutral;
-    if (!is_neutral && mode.growth() * duration > kNeutral)
-      found->stability = Stability::kUnstable;
-    else if (is_neutral && found->stability == Stability::kStable)
-      found->stability = Stability::kNeutral;
-  }
-}
-
 }  // namespace
-
-double EquilibriumMode::growth() const { return std::sqrt(square).real(); }
-double EquilibriumMode::frequency() const {
-  constexpr double kPi = 3.141592653589793;
-  return std::abs(std::sqrt(square).imag()) / (2.0 * kPi);
-}
-
-const char* name_of(Stability stability) {
-  switch (stability) {
-    case Stability::kStable:
-      return "stable";
-    case Stability::kUnstable:
-      return "unstable";
-    case Stability::kNeutral:
-      break;
-  }
-  return "neutral";
-}
 
 Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<double>& parameters,
                              const std::vector<SignalDescription>& signals,
-                             const std::atomic<bool>* cancel) {
+                             const std::atomic<bool>* cancel, const LinearQuestion& question) {
   if (system.study().postures > 0)
     throw InputError({{system.study().file, 1},
                       "positions",
@@ -300,11 +232,15 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   found.names = observer.names();
   found.status = mechanism.begin();
   if (!found.status.ok()) return found;
-  const double duration = system.study().duration, longest = duration / kNeutral;
+  const double longest = kLongest * system.study().duration;
   FreeMotions free;
   found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
   mechanism.observe(&observer, &found.frame);
-  if (found.status.ok()) describe_modes(free, duration, &mechanism, &observer, &found);
+  if (!found.status.ok()) return found;
+  found.linear = linear_model({&system.robot(), &system.whole_study(), system.sharing(), parameters,
+                               question, true},
+                              mechanism.state(), mechanism.theta());
+  found.status = found.linear.status;
   return found;
 }
 
