@@ -66,7 +66,7 @@ class ModelWriter {
   LinearModel write(const State<double>& state, const VectorX<double>& theta) {
     LinearModel model;
     model.duration = case_.study->duration;
-    model.status = case_.at_rest ? motion_.linearize_at_rest(state) : motion_.linearize(state);
+    model.status = case_.at_rest ? motion_.linearize_at_rest(state, case_.integrals) : motion_.linearize(state);
     if (!model.status.ok()) return model;
     closed_ = pattern_.period > 0.0 ? sampled_motion(&motion_, pattern_) : motion_.flow();
     add_modes(theta, &model);

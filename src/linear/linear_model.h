@@ -32,6 +32,7 @@ struct LinearCase {
   std::vector<double> parameters;  ///< all named ones
   LinearQuestion question;
   bool at_rest = true;  ///< at a posture at rest; else at an instant of a run
+  std::vector<double> integrals{};  ///< at rest: the state of each controller's integral
 };
 
 /// A pole and how the joints move in it.

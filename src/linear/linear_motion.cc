@@ -52,11 +52,12 @@ Status LinearMotion::solve_rates() {
 }
 
 // Outputs of cascades follow each other: as many rounds as there are controllers settle all.
-void LinearMotion::settle() {
+void LinearMotion::settle(const std::vector<double>& integrals) {
   const std::vector<Controller>& controllers = system_.controllers();
   for (std::size_t round = 0; round < controllers.size() + 1; ++round) {
-    for (const Controller& controller : controllers)
-      if (controller.state >= 0) state_.s[controller.state] = 0.0;
+    for (std::size_t c = 0; c < controllers.size(); ++c)
+      if (controllers[c].state >= 0)
+        state_.s[controllers[c].state] = c < integrals.size() ? integrals[c] : 0.0;
     equations_.begin_states(&state_);
     for (std::size_t c = 0; c < controllers.size(); ++c) {
       const ControllerStates& states = controllers[c].states;
@@ -74,12 +75,13 @@ void LinearMotion::settle() {
   }
 }
 
-Status LinearMotion::linearize_at_rest(State<double> state) {
+Status LinearMotion::linearize_at_rest(State<double> state,
+                                       const std::vector<double>& integrals) {
   state_ = std::move(state);
   state_.v.setZero();
   state_.s.setZero(system_.layout().states);
   state_.z.setZero(system_.layout().columns());
-  settle();
+  settle(integrals);
   if (Status status = solve_rates(); !status.ok()) return status;
   return differentiate();
 }

@@ -26,7 +26,8 @@ class LinearMotion {
   /// Statuses: kSingularMatrix, kNonFinite.
   Status linearize(State<double> state);
   /// At rest at positions q: controllers, lags and filters have settled.
-  Status linearize_at_rest(State<double> state);
+  /// @param integrals the states of the integrals of the study's controllers; missing ones are zero.
+  Status linearize_at_rest(State<double> state, const std::vector<double>& integrals = {});
 
   const CompiledSystem& system() const { return system_; }
   const State<double>& state() const { return state_; }
@@ -44,7 +45,7 @@ class LinearMotion {
   using Number = Lanes<kLanes>;
 
   Status solve_rates();
-  void settle();
+  void settle(const std::vector<double>& integrals);
   void set_directions();
   void load_lanes(Eigen::Index first);
   template <class Visit>

@@ -174,16 +174,56 @@ TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
       << found.status.cause;
 }
 
-TEST(Equilibrium, RefusesAnIntegral) {
-  const Problem problem =
-      loaded(pendulum_urdf(),
-             start_at(0.0,
-                      "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
-                      "setpoint: 0.7, gains: {p: 20, i: 1}}}\n"));
-  const std::string message = refused([&] { equilibrium_of(problem); });
-  EXPECT_NE(message.find("study.yaml:3: controllers.servo.gains.i: a controller with an integral"),
-            std::string::npos)
-      << message;
+// p e + i s + d e' with e = 0: the integral carries m g l sin(0.7).
+TEST(Equilibrium, AnIntegralLeavesNoError) {
+  for (const std::string more : {"", ", i_clamp: 50", ", sample_time: 0.001", ", antiwindup: true, i_clamp: 50"}) {
+    const Problem problem =
+        loaded(pendulum_urdf(),
+               start_at(0.0,
+                        "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
+                        "setpoint: 0.7, gains: {p: 20, i: 4, d: 1}" +
+                            more + "}}\n"));
+    const Equilibrium found = equilibrium_of(problem);
+    ASSERT_TRUE(found.status.ok()) << found.status.cause;
+    EXPECT_NEAR(position_of(found, "hinge"), 0.7, 1e-9);
+    EXPECT_NEAR(found.frame.joints[0].effort, 2.0 * kGravity * 0.5 * std::sin(0.7), 1e-8);
+    EXPECT_EQ(found.linear.stability, Stability::kStable) << found.linear.verdict;
+    if (!more.empty()) continue;
+    // 0.6 s^3 + 1.3 s^2 + (20 + m g l cos) s + 4
+    for (const LinearMode& mode : found.linear.modes) {
+      const std::complex<double> s = mode.pole.value;
+      EXPECT_LT(std::abs(s * (s * (0.6 * s + 1.3) + 20.0 + kGravity * std::cos(0.7)) + 4.0), 1e-7);
+    }
+  }
+}
+
+// Above i < 1.3 (20 + m g l cos)/0.6 it is unstable, by Routh.
+TEST(Equilibrium, TooMuchOfAnIntegralIsUnstable) {
+  const double limit = 1.3 * (20.0 + kGravity * std::cos(0.7)) / 0.6;
+  for (const double factor : {0.999, 1.001}) {
+    const Equilibrium found = equilibrium_of(loaded(
+        pendulum_urdf(), start_at(0.0,
+                                  "controllers: {servo: {type: pid, input: hinge/position, output: "
+                                  "hinge, setpoint: 0.7, gains: {p: 20, d: 1, i: " +
+                                      std::to_string(factor * limit) + "}}}\n")));
+    EXPECT_EQ(found.linear.stability, factor < 1.0 ? Stability::kStable : Stability::kUnstable);
+  }
+}
+
+TEST(Equilibrium, AnIntegralMayNotSuffice) {
+  const Equilibrium found = equilibrium_of(loaded(
+      pendulum_urdf(), start_at(0.0,
+                                "controllers: {servo: {type: pid, input: hinge/position, output: "
+                                "hinge, setpoint: 0.7, gains: {p: 20, i: 4}, i_clamp: 2, antiwindup: true}}\n")));
+  EXPECT_EQ(found.status.code, StatusCode::kNoEquilibrium);
+  EXPECT_NE(found.status.cause.find("i_clamp allows 2"), std::string::npos) << found.status.cause;
+  const Equilibrium moving = equilibrium_of(loaded(
+      pendulum_urdf(), start_at(0.0,
+                                "controllers: {servo: {type: pid, input: hinge/velocity, output: "
+                                "hinge, setpoint: 3, gains: {p: 20, i: 4}}}\n")));
+  EXPECT_EQ(moving.status.code, StatusCode::kNoEquilibrium);
+  EXPECT_NE(moving.status.cause.find("the largest error left is 3"), std::string::npos)
+      << moving.status.cause;
 }
 
 // A motion that is given rests where it starts; otherwise the bar would swing outwards.
