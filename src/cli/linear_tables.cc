@@ -42,7 +42,10 @@ void print_stability(const LinearModel& model, std::ostream& out) {
   Table table;
   table.add({"small motion", "growth [1/s]", "frequency [Hz]", "damping ratio", "rates"});
   for (std::size_t k = 0; k < model.modes.size(); ++k) {
-    const Pole& pole = model.modes[k].pole;
+    // What rounding leaves of zero is shown as zero.
+    Pole pole = model.modes[k].pole;
+    if (pole.is_zero(model.duration)) pole.value = 0.0;
+    if (std::abs(pole.growth()) <= pole.uncertainty) pole.value = {0.0, pole.value.imag()};
     table.add({std::to_string(k + 1), readable(pole.growth(), kDigits),
                readable(pole.frequency(), kDigits), readable(pole.damping_ratio(), kDigits),
                rates_text(model.modes[k], model.joints)});

@@ -17,7 +17,7 @@ constexpr double kHalfTurn = 3.141592653589793;  // [rad]
 constexpr int kPerDecade = 100;
 constexpr double kBeyond = 1e3;  // the slowest and the fastest pole
 constexpr int kBisections = 200;
-constexpr double kPole = 1e12;  // a value that rounding makes of infinity
+constexpr double kPole = 1e9;  // a value that rounding makes of infinity
 
 /// The frequencies of one pole and around it, where the response turns by half.
 void add_around(const Complex& pole, std::vector<double>* grid) {
@@ -115,9 +115,9 @@ void take_smaller(double value, double frequency, std::optional<AtFrequency>* be
   if (!*best || value < (*best)->value) *best = AtFrequency{value, frequency};
 }
 
-/// Takes a crossing of the negative real axis.
+/// Takes a crossing of the negative real axis, but not one through infinity, at a pole.
 void take_gain(const Complex& L, double frequency, LoopMargins* margins) {
-  if (!(L.real() < 0.0)) return;
+  if (!(L.real() < 0.0 && L.real() > -kPole)) return;
   const double factor = -1.0 / L.real();
   if (factor >= 1.0)
     take_smaller(factor, frequency, &margins->gain_margin);
@@ -174,8 +174,7 @@ Complex OpenLoop::closed_at(double frequency) const {
 void OpenLoop::find_crossings(LoopMargins* margins) const {
   std::vector<Complex> L;
   for (const double w : grid_) L.push_back(at(w));
-  const double still = at(0.0).real();
-  if (std::abs(still) < kPole) take_gain(still, 0.0, margins);
+  take_gain(at(0.0).real(), 0.0, margins);
   if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), margins);
   for (std::size_t k = 0; k + 1 < grid_.size(); ++k) {
     const bool is_end = period_ > 0.0 && k + 2 == grid_.size();
