@@ -51,6 +51,14 @@ std::vector<double> scaled(const Eigen::VectorXcd& rates) {
   return result;
 }
 
+/// "damping, controllers and samples".
+std::string listed(const std::vector<std::string>& words) {
+  std::string text;
+  for (std::size_t k = 0; k < words.size(); ++k)
+    text += (k == 0 ? "" : k + 1 == words.size() ? " and " : ", ") + words[k];
+  return text;
+}
+
 class ModelWriter {
  public:
   ModelWriter(const LinearCase& of, const State<double>& state)
@@ -90,21 +98,17 @@ class ModelWriter {
                      decisive_text(poles, model->stability, closed_.period) + "; " + counted();
   }
 
-  /// What the poles contain.
+  /// What the poles contain, and what they do not.
   std::string counted() const {
-    std::string text = "damping";
-    bool is_sampled = false, is_rounded = false;
-    for (const ControllerDescription& controller : case_.study->controllers) {
-      is_sampled = is_sampled || controller.realization.is_sampled();
+    std::vector<std::string> in{"damping", "controllers"}, out;
+    bool is_rounded = false;
+    for (const ControllerDescription& controller : case_.study->controllers)
       is_rounded = is_rounded || controller.realization.quantization > 0.0;
-    }
-    const bool with_friction = case_.question.friction != LinearFriction::kOff || !case_.at_rest;
-    if (is_sampled) text += ", controllers";
-    text += with_friction ? (is_sampled ? ", samples" : ", controllers") + std::string(" and friction counted")
-                          : (is_sampled ? " and samples" : " and controllers") +
-                                std::string(" counted, friction ") +
-                                (is_rounded ? "and quantization not" : "not");
-    return with_friction && is_rounded ? text + ", quantization not" : text;
+    if (pattern_.period > 0.0) in.emplace_back("samples");
+    const bool without = case_.question.friction == LinearFriction::kOff && case_.at_rest;
+    (without ? out : in).emplace_back("friction");
+    if (is_rounded) out.emplace_back("quantization");
+    return listed(in) + " counted" + (out.empty() ? "" : ", " + listed(out) + " not");
   }
 
   /// The rates of the joints per rate of y.

@@ -50,6 +50,33 @@ class Postures(unittest.TestCase):
             shipped("four_bar_path").adjoint()
 
 
+class Linearizations(unittest.TestCase):
+    def test_an_arm_under_computed_torque(self):
+        model = shipped("two_link_arm").linearize(signals=["elbow/position"])
+        self.assertEqual((model.A.shape, model.B.shape[0], model.C.shape), ((4, 4), 4, (1, 4)))
+        self.assertEqual(model.B.shape, (4, len(model.inputs)))
+        self.assertEqual((model.states[0], model.outputs, model.period), ("shoulder/position", ["elbow/position"], None))
+        np.testing.assert_allclose(np.sort(model.poles.real), np.sort(np.linalg.eigvals(model.A).real)[::2], rtol=1e-9)
+        frequencies, loop = model.response("elbow_servo")
+        margin = model.loops["elbow_servo"]["phase_margin"]
+        self.assertAlmostEqual(float(np.interp(margin["frequency"], frequencies, np.abs(loop))), 1.0, 3)
+        self.assertIn("stable", repr(model))
+
+    def test_a_sampled_axis_and_faults(self):
+        problem = shipped("feed_axis")
+        model = problem.linearize()
+        self.assertGreater(model.period, 0.0)
+        self.assertLess(np.abs(np.linalg.eigvals(model.A)).max(), 1.0)
+        with self.assertRaises(KeyError):
+            model.response("velocity_loop")
+        for wrong in ({"friction": "some"}, {"at": -1.0}, {"at": 1e9}, {"signals": ["axis/poise"]}):
+            with self.assertRaises(codesign.InputError):
+                problem.linearize(**wrong)
+        self.assertEqual(shipped("slider_crank").linearize(at=0.1).stability, "stable")
+        with self.assertRaises(codesign.ComputationError):
+            shipped("slider_crank").linearize()
+
+
 class Designs(unittest.TestCase):
     def test_rho_is_a_keyword_too(self):
         problem = pendulum()
