@@ -118,7 +118,7 @@ Names command_names();
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
-  static const Names kOfDesigns = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
+  static const Names kOfDesigns = {"check",     "urdf",     "simulate", "efforts",  "equilibrium",
                                    "linearize", "gradient", "optimize", "identify", "excite"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
@@ -141,7 +141,8 @@ const std::map<std::string, Option>& options() {
        {Value::kRequired,
         {"simulate", "efforts", "equilibrium", "linearize", "gradient"},
         [](const std::string& text, Arguments* to) { to->run = text; }}},
-      {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium", "linearize"}, add_signals}},
+      {"--signals",
+       {Value::kRequired, {"simulate", "efforts", "equilibrium", "linearize"}, add_signals}},
       {"--friction", {Value::kRequired, {"equilibrium", "linearize"}, set_friction}},
       {"--at", {Value::kRequired, {"linearize"}, set_time}},
       {"--csv",

@@ -21,8 +21,8 @@ class UsageError : public std::runtime_error {
 /// name their command.
 struct Arguments {
   std::string topic;  ///< help; the command that it is about, empty: all
-  /// check, urdf, overlay, simulate, efforts, equilibrium, linearize, gradient, optimize, identify, excite,
-  /// new, help or version
+  /// check, urdf, overlay, simulate, efforts, equilibrium, linearize, gradient, optimize, identify,
+  /// excite, new, help or version
   std::string command;
   std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
   std::string study;  ///< path; empty: none given
@@ -38,10 +38,10 @@ struct Arguments {
   std::vector<std::string> signals;  ///< simulate, efforts, equilibrium, linearize
   /// equilibrium, linearize; what of friction about rest counts
   LinearFriction friction = LinearFriction::kOff;
-  double time = -1.0;                ///< linearize; [s] of the run, negative: about the equilibrium
-  std::string csv;                   ///< simulate, efforts, linearize; empty: standard output
-  int samples = 101;                 ///< simulate, efforts; equally spaced instants, at least 2
-  bool verify = false;               ///< gradient
+  double time = -1.0;           ///< linearize; [s] of the run, negative: about the equilibrium
+  std::string csv;              ///< simulate, efforts, linearize; empty: standard output
+  int samples = 101;            ///< simulate, efforts; equally spaced instants, at least 2
+  bool verify = false;          ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files

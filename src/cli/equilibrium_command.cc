@@ -46,9 +46,8 @@ int equilibrium(const Arguments& arguments, const Console& console) {
   const Problem problem = load(arguments, &console);
   const std::vector<SignalDescription> signals =
       select_signals(arguments, problem, study_of(problem).controllers, {});
-  const Equilibrium found =
-      find_equilibrium(*system_of(problem), problem.parameters(), signals, &console.cancel,
-                       {{}, arguments.friction, false});
+  const Equilibrium found = find_equilibrium(*system_of(problem), problem.parameters(), signals,
+                                             &console.cancel, {{}, arguments.friction, false});
   LimitWatch limits(problem, problem.parameters(), found.names);
   if (found.status.ok()) limits.observe(found.frame);
   if (found.status.ok() && !arguments.json) {

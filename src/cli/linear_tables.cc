@@ -68,7 +68,8 @@ void print_margins(const LinearModel& model, std::ostream& out) {
       std::string title = name;
       for (char& c : title)
         if (c == '_') c = ' ';
-      table.add({loop.controller + " " + title, margin_text(name, margin, unit, loop.margins.is_stable),
+      table.add({loop.controller + " " + title,
+                 margin_text(name, margin, unit, loop.margins.is_stable),
                  margin ? readable(margin->frequency / kTurn, kDigits) : "-"});
     });
   }

@@ -36,8 +36,8 @@ int linearize(const Arguments& arguments, const Console& console) {
   const LinearModel model =
       arguments.time < 0.0
           ? linearize_at_rest(*system_of(problem), problem.parameters(), question, &console.cancel)
-          : linearize_in_motion(*system_of(problem), problem.parameters(), question,
-                                arguments.time, &console.cancel);
+          : linearize_in_motion(*system_of(problem), problem.parameters(), question, arguments.time,
+                                &console.cancel);
   if (model.status.ok() && !arguments.json) {
     print_stability(model, console.out);
     print_margins(model, console.out);

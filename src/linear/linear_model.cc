@@ -25,8 +25,8 @@ Study bare_study(const LinearCase& of) {
   for (InitialJointState& initial : study.initial_state) initial.stuck = false;
   if (of.at_rest)
     for (GivenMotion& motion : study.motion)
-      motion.position = ReferenceDescription(
-          Reference<double>(motion.position, of.parameters).at(0.0).value);
+      motion.position =
+          ReferenceDescription(Reference<double>(motion.position, of.parameters).at(0.0).value);
   const auto watch = [&study](const SignalDescription& signal) {
     WatchedSignal watched;
     watched.signal = signal;
@@ -65,8 +65,9 @@ class ModelWriter {
       : case_(of),
         study_(with_inputs(bare_study(of), of.parameters, state.t, of.at_rest)),
         controllers_(of.study->controllers.size()),
-        system_(of.question.friction == LinearFriction::kOff && of.at_rest ? without_friction(*of.robot)
-                                                                  : *of.robot,
+        system_(of.question.friction == LinearFriction::kOff && of.at_rest
+                    ? without_friction(*of.robot)
+                    : *of.robot,
                 study_.study, of.sharing),
         motion_(system_, study_),
         pattern_(sample_pattern(study_.study)) {}
@@ -74,7 +75,8 @@ class ModelWriter {
   LinearModel write(const State<double>& state, const VectorX<double>& theta) {
     LinearModel model;
     model.duration = case_.study->duration;
-    model.status = case_.at_rest ? motion_.linearize_at_rest(state, case_.integrals) : motion_.linearize(state);
+    model.status = case_.at_rest ? motion_.linearize_at_rest(state, case_.integrals)
+                                 : motion_.linearize(state);
     if (!model.status.ok()) return model;
     closed_ = pattern_.period > 0.0 ? sampled_motion(&motion_, pattern_) : motion_.flow();
     add_modes(theta, &model);
@@ -154,12 +156,11 @@ class ModelWriter {
     const StateSpace& flow = motion_.flow();
     const Eigen::Index row = to_signed(case_.question.outputs.size() + c);
     const Eigen::Index input = study_.disturbances[c];
-    StateSpace loop{0.0,           flow.states,        {"disturbance"},  {"output"}, flow.A,
-                    flow.B.col(input), flow.C.row(row), flow.D.block(row, input, 1, 1)};
+    StateSpace loop{0.0,    flow.states,       {"disturbance"}, {"output"},
+                    flow.A, flow.B.col(input), flow.C.row(row), flow.D.block(row, input, 1, 1)};
     const int lag = system_.controllers()[c].states.lag;
     if (lag < 0) return loop;
-    const double time =
-        case_.study->controllers[c].realization.time_constant->at(case_.parameters);
+    const double time = case_.study->controllers[c].realization.time_constant->at(case_.parameters);
     loop.B.setZero();
     loop.B(motion_.motions() + lag, 0) = 1.0 / time;
     loop.D.setZero();

@@ -21,7 +21,7 @@ namespace codesign {
 struct LinearQuestion {
   std::vector<SignalDescription> outputs;
   LinearFriction friction = LinearFriction::kOff;  ///< at rest; in motion all of it counts
-  bool with_loops = false;                         ///< whether margins of the controllers are wanted
+  bool with_loops = false;  ///< whether margins of the controllers are wanted
 };
 
 /// What is linearized.
@@ -31,7 +31,7 @@ struct LinearCase {
   ReactionSharing sharing;
   std::vector<double> parameters;  ///< all named ones
   LinearQuestion question;
-  bool at_rest = true;  ///< at a posture at rest; else at an instant of a run
+  bool at_rest = true;              ///< at a posture at rest; else at an instant of a run
   std::vector<double> integrals{};  ///< at rest: the state of each controller's integral
 };
 

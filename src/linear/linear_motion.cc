@@ -37,7 +37,8 @@ Status LinearMotion::solve_rates() {
               "the equations of motion are singular at the state that is linearized"};
     VectorX<double> change = step.head(system_.layout().columns());
     matrix_.lu().solve(change);
-    const double size = change.size() == 0 ? 0.0 : change.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    const double size =
+        change.size() == 0 ? 0.0 : change.cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
     if (!std::isfinite(size)) break;
     state_.z -= change;
     const double scale = 1.0 + (state_.z.size() == 0 ? 0.0 : state_.z.cwiseAbs().maxCoeff());
@@ -75,8 +76,7 @@ void LinearMotion::settle(const std::vector<double>& integrals) {
   }
 }
 
-Status LinearMotion::linearize_at_rest(State<double> state,
-                                       const std::vector<double>& integrals) {
+Status LinearMotion::linearize_at_rest(State<double> state, const std::vector<double>& integrals) {
   state_ = std::move(state);
   state_.v.setZero();
   state_.s.setZero(system_.layout().states);
@@ -154,8 +154,7 @@ Status LinearMotion::differentiate() {
   Eigen::MatrixXd rates(x, q_.cols());
   rates.topRows(f).setZero();
   rates.block(0, f, f, f).setIdentity();
-  for (Eigen::Index k = 0; k < f; ++k)
-    rates.row(f + k) = z_.row(coordinates_.columns[to_index(k)]);
+  for (Eigen::Index k = 0; k < f; ++k) rates.row(f + k) = z_.row(coordinates_.columns[to_index(k)]);
   rates.bottomRows(layout.states) = z_.bottomRows(layout.states);
   Eigen::MatrixXd outputs(to_signed(flow_.outputs.size()), q_.cols());
   if (outputs.rows() > 0)

@@ -26,7 +26,8 @@ class LinearMotion {
   /// Statuses: kSingularMatrix, kNonFinite.
   Status linearize(State<double> state);
   /// At rest at positions q: controllers, lags and filters have settled.
-  /// @param integrals the states of the integrals of the study's controllers; missing ones are zero.
+  /// @param integrals the states of the integrals of the study's controllers; missing ones are
+  /// zero.
   Status linearize_at_rest(State<double> state, const std::vector<double>& integrals = {});
 
   const CompiledSystem& system() const { return system_; }

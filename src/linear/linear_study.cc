@@ -70,8 +70,7 @@ void add_inputs(std::size_t c, InputWriter* writer, LinearStudy* to) {
   beside.kind = ControllerKind::kStateFeedback;
   beside.output = controller.output;
   beside.where = controller.where;
-  beside.feedforward =
-      ReferenceDescription(writer->input(controller.name + "/disturbance", 0.0));
+  beside.feedforward = ReferenceDescription(writer->input(controller.name + "/disturbance", 0.0));
   to->study.controllers.push_back(beside);
 }
 

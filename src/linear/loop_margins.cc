@@ -50,9 +50,9 @@ std::vector<double> grid_of(const std::vector<Pole>& closed, const std::vector<P
   const int count = static_cast<int>(kPerDecade * std::log10(last / first)) + 2;
   for (int k = 0; k <= count; ++k)
     grid.push_back(first * std::pow(last / first, static_cast<double>(k) / count));
-  grid.erase(std::remove_if(grid.begin(), grid.end(),
-                            [&](double w) { return !(w >= first && w < last); }),
-             grid.end());
+  grid.erase(
+      std::remove_if(grid.begin(), grid.end(), [&](double w) { return !(w >= first && w < last); }),
+      grid.end());
   grid.push_back(last);
   std::sort(grid.begin(), grid.end());
   grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
@@ -150,9 +150,8 @@ OpenLoop::OpenLoop(const StateSpace& closed) : period_(closed.period) {
   functions_ = std::make_unique<Functions>(Functions{
       TransferFunction(closed.A, b, c, d), TransferFunction(open.A, per * b, per * c, per * d)});
   const std::vector<Pole> poles = poles_of(closed);
-  is_stable_ = std::none_of(poles.begin(), poles.end(), [](const Pole& pole) {
-    return pole.growth() > pole.uncertainty;
-  });
+  is_stable_ = std::none_of(poles.begin(), poles.end(),
+                            [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
   grid_ = grid_of(poles, poles_of(open), period_);
 }
 
@@ -185,8 +184,8 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
       take_gain(at(w), w, margins);
     }
     if ((std::abs(L[k]) < 1.0) == (std::abs(L[k + 1]) < 1.0)) continue;
-    const double w = zero_between(grid_[k], grid_[k + 1],
-                                  [&](double at_w) { return std::abs(at(at_w)) - 1.0; });
+    const double w =
+        zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return std::abs(at(at_w)) - 1.0; });
     take_phase(at(w), w, margins);
   }
 }

@@ -24,14 +24,15 @@ struct AtFrequency {
 /// sign.
 struct LoopMargins {
   bool is_stable = true;  ///< whether no pole of the closed loop grows
-  /// the smallest factor above 1 by which the gain may rise, and the largest one below 1 to which it
-  /// may fall, where L crosses the negative real axis
+  /// the smallest factor above 1 by which the gain may rise, and the largest one below 1 to which
+  /// it may fall, where L crosses the negative real axis
   std::optional<AtFrequency> gain_margin, gain_reduction;
   std::optional<AtFrequency> phase_margin;  ///< smallest one where |L| = 1 [rad], a lead or a lag
   std::optional<AtFrequency> delay_margin;  ///< smallest further delay [s]
-  std::optional<AtFrequency> bandwidth;     ///< value = frequency [rad/s]: |T| falls below |T(0)|/sqrt 2
-  AtFrequency sensitivity;                  ///< Ms, the largest |1/(1 + L)|
-  AtFrequency complementary;                ///< Mt, the largest |L/(1 + L)|
+  std::optional<AtFrequency>
+      bandwidth;              ///< value = frequency [rad/s]: |T| falls below |T(0)|/sqrt 2
+  AtFrequency sensitivity;    ///< Ms, the largest |1/(1 + L)|
+  AtFrequency complementary;  ///< Mt, the largest |L/(1 + L)|
 };
 
 /// The loop of a controller as a transfer function.

@@ -37,9 +37,7 @@ const char* name_of(Stability stability) {
 }
 
 double Pole::frequency() const { return std::abs(value.imag()) / (2.0 * kPi); }
-double Pole::damping_ratio() const {
-  return value == 0.0 ? 0.0 : -value.real() / std::abs(value);
-}
+double Pole::damping_ratio() const { return value == 0.0 ? 0.0 : -value.real() / std::abs(value); }
 double Pole::radius(double period) const { return std::exp(value.real() * period); }
 bool Pole::is_zero(double duration) const {
   return std::abs(value) <= std::max(uncertainty, kStill / duration);
@@ -81,8 +79,7 @@ Stability judge(const std::vector<Pole>& poles, double duration) {
   return is_neutral ? Stability::kNeutral : Stability::kStable;
 }
 
-std::string decisive_text(const std::vector<Pole>& poles, Stability stability,
-                          double period) {
+std::string decisive_text(const std::vector<Pole>& poles, Stability stability, double period) {
   if (poles.empty()) return "no motion";
   const Pole& first = poles.front();
   std::string text;

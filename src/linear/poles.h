@@ -23,10 +23,10 @@ struct Pole {
   double uncertainty = 0.0;    ///< by rounding [1/s]
   Eigen::VectorXcd vector;     ///< of the states
 
-  double growth() const { return value.real(); }       ///< Re s [1/s]; negative: it decays
-  double frequency() const;                            ///< Im s/(2 pi) [Hz]
-  double damping_ratio() const;                        ///< -Re s/|s| [-]; 0 for s = 0
-  double radius(double period) const;                  ///< |z|
+  double growth() const { return value.real(); }  ///< Re s [1/s]; negative: it decays
+  double frequency() const;                       ///< Im s/(2 pi) [Hz]
+  double damping_ratio() const;                   ///< -Re s/|s| [-]; 0 for s = 0
+  double radius(double period) const;             ///< |z|
   /// Whether it cannot be told from a motion that nothing drives or slows.
   /// @param duration [s] below 1e-5 of which growth and turn are no motion.
   bool is_zero(double duration) const;
@@ -41,7 +41,6 @@ std::vector<Pole> poles_of(const StateSpace& system);
 Stability judge(const std::vector<Pole>& poles, double duration);
 
 /// "slowest pole -0.8 1/s": the pole that decides, and of a sampled system the spectral radius.
-std::string decisive_text(const std::vector<Pole>& poles, Stability stability,
-                          double period);
+std::string decisive_text(const std::vector<Pole>& poles, Stability stability, double period);
 
 }  // namespace codesign

@@ -143,8 +143,7 @@ class PeriodMap {
   void flow(double time) {
     if (!(time > 0.0)) return;
     const auto known = flows_.find(time);
-    if (known == flows_.end())
-      flows_[time] = matrix_exponential(rate_ * time);
+    if (known == flows_.end()) flows_[time] = matrix_exponential(rate_ * time);
     map_ = product(flows_[time], map_);
   }
 
@@ -218,14 +217,10 @@ StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int 
   PeriodMap map(motion, pattern, controller);
   map.run();
   const std::string& name = motion->system().study().controllers[to_index(controller)].name;
-  return {pattern.period,
-          motion->flow().states,
-          {name + "/disturbance"},
-          {name + "/output"},
-          map.columns(0, map.states()),
-          map.columns(map.states() + map.inputs(), 1),
-          map.output(),
-          Eigen::MatrixXd::Zero(1, 1)};
+  return {
+      pattern.period,     motion->flow().states,        {name + "/disturbance"},
+      {name + "/output"}, map.columns(0, map.states()), map.columns(map.states() + map.inputs(), 1),
+      map.output(),       Eigen::MatrixXd::Zero(1, 1)};
 }
 
 }  // namespace codesign

@@ -162,8 +162,7 @@ py::tuple simulate(const Session& session, const py::object& rho, const py::dict
 
 /// (failure or None, record of the linearization)
 py::tuple linearize(const Session& session, const py::object& rho, const py::dict& settings,
-                    const py::list& signals, const std::string& friction,
-                    const py::object& at) {
+                    const py::list& signals, const std::string& friction, const py::object& at) {
   const std::vector<double> design = design_of(session, rho, settings);
   const std::vector<std::string> outputs = names_of(signals, "signals");
   const std::optional<double> time =

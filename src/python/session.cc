@@ -214,9 +214,8 @@ RunTable Session::run(const std::vector<double>& parameters,
 }
 
 LinearModel Session::linearize(const std::vector<double>& parameters,
-                               const std::vector<std::string>& outputs,
-                               const std::string& friction, std::optional<double> at,
-                               const std::atomic<bool>* cancel) const {
+                               const std::vector<std::string>& outputs, const std::string& friction,
+                               std::optional<double> at, const std::atomic<bool>* cancel) const {
   const auto known = std::find(kLinearFrictionNames.begin(), kLinearFrictionNames.end(), friction);
   if (known == kLinearFrictionNames.end())
     throw InputError({{kCall, 0},

@@ -67,9 +67,9 @@ class Session {
   RunTable run(const std::vector<double>& parameters, const std::vector<std::string>& signals,
                int samples, const std::atomic<bool>* cancel) const;
 
-  /// Small motions of the study at a design, with margins. @param at [s] of the run; none: about the
-  /// equilibrium. @param friction of kLinearFrictionNames. @throws InputError as run(), for another
-  /// friction, and as linearize_at_rest() and linearize_in_motion()
+  /// Small motions of the study at a design, with margins. @param at [s] of the run; none: about
+  /// the equilibrium. @param friction of kLinearFrictionNames. @throws InputError as run(), for
+  /// another friction, and as linearize_at_rest() and linearize_in_motion()
   LinearModel linearize(const std::vector<double>& parameters,
                         const std::vector<std::string>& outputs, const std::string& friction,
                         std::optional<double> at, const std::atomic<bool>* cancel) const;

@@ -117,8 +117,8 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
   // Without its integrals the mechanism may have no posture at rest.
   if (mechanism.integrals().size() > 0 && found.status.code != StatusCode::kCancelled)
-    found.status = rest_without_error(&mechanism, parameters, system.whole_study(), cancel,
-                                      &found.steps);
+    found.status =
+        rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
   if (!found.status.ok()) return found;
   found.linear = linear_model({&system.robot(), &system.whole_study(), system.sharing(), parameters,

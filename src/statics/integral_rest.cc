@@ -16,8 +16,8 @@ namespace {
 constexpr int kMostCorrections = 200;
 constexpr double kLongestCorrection = 0.2;  // of any coordinate [rad or m]
 constexpr double kSmallCorrection = 1e-12;  // relative
-constexpr double kStill = 1e-9;       // of accelerations and errors, relative to their terms
-constexpr double kRank = 1e-10;       // of rows and columns that are scaled to 1
+constexpr double kStill = 1e-9;             // of accelerations and errors, relative to their terms
+constexpr double kRank = 1e-10;             // of rows and columns that are scaled to 1
 
 /// The solution of least norm after scaling rows and columns: coordinates and integrals have units
 /// of their own.

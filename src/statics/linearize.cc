@@ -16,8 +16,7 @@ LinearModel linearize_at_rest(const CompiledSystem& system, const std::vector<do
   return std::move(found.linear);
 }
 
-LinearModel linearize_in_motion(const CompiledSystem& system,
-                                const std::vector<double>& parameters,
+LinearModel linearize_in_motion(const CompiledSystem& system, const std::vector<double>& parameters,
                                 const LinearQuestion& question, double t,
                                 const std::atomic<bool>* cancel) {
   const MotionStudy& study = system.study();
@@ -36,9 +35,9 @@ LinearModel linearize_in_motion(const CompiledSystem& system,
   failed.status = run->start(parameters);
   while (failed.status.ok() && run->state().t < t) failed.status = run->advance(t);
   if (!failed.status.ok()) return failed;
-  return linear_model({&system.robot(), &system.whole_study(), system.sharing(), parameters,
-                       question, false},
-                      run->state(), run->assembly().theta());
+  return linear_model(
+      {&system.robot(), &system.whole_study(), system.sharing(), parameters, question, false},
+      run->state(), run->assembly().theta());
 }
 
 }  // namespace codesign

@@ -59,13 +59,15 @@ TEST(LoopMargins, PeaksOfASecondOrderLoop) {
   // L = w0^2/(s (s + 2 zeta w0)): T has the peak 1/(2 zeta sqrt(1 - zeta^2)), theory of lags.
   const double zeta = 0.3, w0 = 5.0;
   const LoopMargins margins = OpenLoop(closed_loop({w0 * w0}, {0.0, 2.0 * zeta * w0})).margins();
-  EXPECT_NEAR(margins.complementary.value, 1.0 / (2.0 * zeta * std::sqrt(1.0 - zeta * zeta)), 1e-10);
+  EXPECT_NEAR(margins.complementary.value, 1.0 / (2.0 * zeta * std::sqrt(1.0 - zeta * zeta)),
+              1e-10);
   EXPECT_NEAR(margins.complementary.frequency, w0 * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6);
   // |T|^2 = 1/2: (1 - u)^2 + 4 zeta^2 u = 2 with u = (w/w0)^2
   const double half = 1.0 - 2.0 * zeta * zeta;
   EXPECT_NEAR(margins.bandwidth->value, w0 * std::sqrt(half + std::sqrt(half * half + 1.0)), 1e-9);
   EXPECT_NEAR(margins.phase_margin->value,
-              std::atan(2.0 * zeta / std::sqrt(std::sqrt(1.0 + 4.0 * std::pow(zeta, 4)) - 2.0 * zeta * zeta)),
+              std::atan(2.0 * zeta /
+                        std::sqrt(std::sqrt(1.0 + 4.0 * std::pow(zeta, 4)) - 2.0 * zeta * zeta)),
               1e-10);
   EXPECT_FALSE(margins.gain_margin);
 }

@@ -63,8 +63,9 @@ TEST(LinearSystems, TransferFunctionOfAThirdOrderLag) {
     EXPECT_LT(std::abs(G.at(s) - expected), 1e-13 * std::abs(expected));
   }
   EXPECT_EQ(G.at_infinity(), 5.0);
-  EXPECT_EQ(TransferFunction(MatrixXd(0, 0), Eigen::VectorXd(0), Eigen::RowVectorXd(0), 3.0).at(1.0),
-            3.0);
+  EXPECT_EQ(
+      TransferFunction(MatrixXd(0, 0), Eigen::VectorXd(0), Eigen::RowVectorXd(0), 3.0).at(1.0),
+      3.0);
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ TEST(Equilibrium, APendulumAtItsTopIsUnstable) {
   ASSERT_TRUE(found.status.ok()) << found.status.cause;
   EXPECT_NEAR(position_of(found, "hinge"), kPi, 1e-12);
   EXPECT_EQ(found.linear.stability, Stability::kUnstable);
-  EXPECT_NEAR(found.linear.modes[0].pole.growth(),
-              -kDecay + std::sqrt(kSquare + kDecay * kDecay), 1e-9);
+  EXPECT_NEAR(found.linear.modes[0].pole.growth(), -kDecay + std::sqrt(kSquare + kDecay * kDecay),
+              1e-9);
 }
 
 // p (r - theta) = m g l sin(theta): a servo without an integral sags; delays, samples and lags do
@@ -91,7 +91,8 @@ TEST(Equilibrium, ASpringBalancesAnArm) {
   const Equilibrium strong =
       equilibrium_of(loaded(balanced_arm(2.0, 2.0 * balance), start_at(1.0)));
   EXPECT_NEAR(position_of(strong, "hinge"), 0.0, 1e-9);
-  EXPECT_NEAR(-std::norm(strong.linear.modes[0].pole.value), -2.0 * kGravity * 0.5 / (0.01 + 2.0 * 0.25), 1e-8);
+  EXPECT_NEAR(-std::norm(strong.linear.modes[0].pole.value),
+              -2.0 * kGravity * 0.5 / (0.01 + 2.0 * 0.25), 1e-8);
   const Equilibrium even = equilibrium_of(loaded(balanced_arm(2.0, balance), start_at(1.0)));
   ASSERT_TRUE(even.status.ok()) << even.status.cause;
   EXPECT_NEAR(position_of(even, "hinge"), 1.0, 1e-9) << "it rests where it is put";
@@ -176,7 +177,8 @@ TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
 
 // p e + i s + d e' with e = 0: the integral carries m g l sin(0.7).
 TEST(Equilibrium, AnIntegralLeavesNoError) {
-  for (const std::string more : {"", ", i_clamp: 50", ", sample_time: 0.001", ", antiwindup: true, i_clamp: 50"}) {
+  for (const std::string more :
+       {"", ", i_clamp: 50", ", sample_time: 0.001", ", antiwindup: true, i_clamp: 50"}) {
     const Problem problem =
         loaded(pendulum_urdf(),
                start_at(0.0,
@@ -212,9 +214,10 @@ TEST(Equilibrium, TooMuchOfAnIntegralIsUnstable) {
 
 TEST(Equilibrium, AnIntegralMayNotSuffice) {
   const Equilibrium found = equilibrium_of(loaded(
-      pendulum_urdf(), start_at(0.0,
-                                "controllers: {servo: {type: pid, input: hinge/position, output: "
-                                "hinge, setpoint: 0.7, gains: {p: 20, i: 4}, i_clamp: 2, antiwindup: true}}\n")));
+      pendulum_urdf(),
+      start_at(0.0,
+               "controllers: {servo: {type: pid, input: hinge/position, output: "
+               "hinge, setpoint: 0.7, gains: {p: 20, i: 4}, i_clamp: 2, antiwindup: true}}\n")));
   EXPECT_EQ(found.status.code, StatusCode::kNoEquilibrium);
   EXPECT_NE(found.status.cause.find("i_clamp allows 2"), std::string::npos) << found.status.cause;
   const Equilibrium moving = equilibrium_of(loaded(

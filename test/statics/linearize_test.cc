@@ -82,8 +82,7 @@ TEST(Linearize, TwoCartsOnASpringDriftTogether) {
   const LinearModel model = model_of(carts(2, {"", sprung(8.0)}, true), controlled(""));
   EXPECT_EQ(model.stability, Stability::kNeutral) << model.verdict;
   double fastest = 0.0;
-  for (const LinearMode& mode : model.modes)
-    fastest = std::max(fastest, std::abs(mode.pole.value));
+  for (const LinearMode& mode : model.modes) fastest = std::max(fastest, std::abs(mode.pole.value));
   EXPECT_NEAR(fastest, 4.0, 1e-12) << "k (1/m1 + 1/m2)";
 }
 
@@ -124,8 +123,8 @@ TEST(Linearize, AMotorUnderProportionalControl) {
 
 // 1/((s + 1)^2 (s + 1)), the last one the lag of the drive.
 TEST(Linearize, ThreeLags) {
-  const LinearModel model = model_of(carts(1, {sprung(1.0, 2.0)}),
-                                     controlled(servo("gains: {p: 1}, time_constant: 1")));
+  const LinearModel model =
+      model_of(carts(1, {sprung(1.0, 2.0)}), controlled(servo("gains: {p: 1}, time_constant: 1")));
   const LoopMargins& margins = model.loops.at(0).margins;
   EXPECT_NEAR(margins.gain_margin->value, 8.0, 1e-9);
   EXPECT_NEAR(margins.gain_margin->frequency, std::sqrt(3.0), 1e-9);
@@ -147,9 +146,10 @@ TEST(Linearize, AnInvertedPendulumUnderPd) {
       "duration: 10\ncontrollers: {servo: {type: pid, input: hinge/position, setpoint: 0, output: "
       "hinge, gains: {p: 20, d: 4}}}\n");
   const double inertia = 0.01 + 2.0 * 0.25;
-  expect_poles(model,
-               {{-2.0 / inertia, std::sqrt((20.0 - kGravity) / inertia - std::pow(2.0 / inertia, 2))}},
-               1e-9);
+  expect_poles(
+      model,
+      {{-2.0 / inertia, std::sqrt((20.0 - kGravity) / inertia - std::pow(2.0 / inertia, 2))}},
+      1e-9);
   EXPECT_NEAR(model.loops.at(0).margins.gain_reduction->value, kGravity / 20.0, 1e-10);
 }
 
@@ -193,8 +193,7 @@ TEST(Linearize, ASampledLoopBesideItsGainMargin) {
   EXPECT_NE(model.verdict.find("samples counted, friction not"), std::string::npos);
   // A further delay of the delay margin brings it to its limit.
   const double delay = model.loops.at(0).margins.delay_margin->value;
-  EXPECT_EQ(sampled(1.0, ", delay: " + std::to_string(delay - 1e-4)).stability,
-            Stability::kStable);
+  EXPECT_EQ(sampled(1.0, ", delay: " + std::to_string(delay - 1e-4)).stability, Stability::kStable);
   EXPECT_EQ(sampled(1.0, ", delay: " + std::to_string(delay + 1e-4)).stability,
             Stability::kUnstable);
 }
@@ -202,9 +201,9 @@ TEST(Linearize, ASampledLoopBesideItsGainMargin) {
 // v(k+1) = v(k) - k T v(k): the pole 1 - k T, and with a delay of a sample z^2 - z + k T.
 TEST(Linearize, ASampledSpeed) {
   const auto sampled = [](const std::string& more) {
-    return model_of(carts(1, {""}), "duration: 10\ncontrollers: {" +
-                                        servo("gains: {p: 2}, sample_time: 0.1" + more, "0", "velocity") +
-                                        "}\n");
+    return model_of(carts(1, {""}),
+                    "duration: 10\ncontrollers: {" +
+                        servo("gains: {p: 2}, sample_time: 0.1" + more, "0", "velocity") + "}\n");
   };
   const LinearModel model = sampled("");
   EXPECT_NEAR(model.loops.at(0).margins.gain_margin->value, 10.0, 1e-9);
@@ -227,10 +226,11 @@ TEST(Linearize, ASampledSpeed) {
 
 // Deadbeat: after two samples nothing is left.
 TEST(Linearize, ADeadbeatLoopHasNoMotionLeft) {
-  const LinearModel model = model_of(
-      carts(1, {""}),
-      "duration: 10\ncontrollers: {c: {type: state_feedback, output: x0, sample_time: 0.5, feedback: "
-      "[{signal: x0/position, gain: 4}, {signal: x0/velocity, gain: 3}]}}\n");
+  const LinearModel model =
+      model_of(carts(1, {""}),
+               "duration: 10\ncontrollers: {c: {type: state_feedback, output: x0, sample_time: "
+               "0.5, feedback: "
+               "[{signal: x0/position, gain: 4}, {signal: x0/velocity, gain: 3}]}}\n");
   EXPECT_EQ(model.stability, Stability::kStable);
   for (const LinearMode& mode : model.modes) EXPECT_LT(mode.pole.radius(0.5), 1e-6);
 }
@@ -248,12 +248,13 @@ TEST(Linearize, SeveralSampleTimes) {
   ASSERT_EQ(radii.size(), 4U);
   EXPECT_NEAR(radii[0], std::pow(0.7, 2), 1e-12);
   EXPECT_NEAR(radii[1], std::pow(0.9, 3), 1e-12);
-  EXPECT_EQ(model.loops.at(0).why_not, "it samples several times in the common period of all controllers");
+  EXPECT_EQ(model.loops.at(0).why_not,
+            "it samples several times in the common period of all controllers");
 }
 
 TEST(Linearize, FrictionCountsWhenAsked) {
-  const Problem problem = loaded(
-      carts(1, {R"(<dynamics damping="0.5" friction="2"/>)"}), controlled(""));
+  const Problem problem =
+      loaded(carts(1, {R"(<dynamics damping="0.5" friction="2"/>)"}), controlled(""));
   LinearQuestion question;
   const LinearModel without =
       linearize_at_rest(*system_of(problem), problem.parameters(), question);
@@ -269,8 +270,9 @@ TEST(Linearize, FrictionCountsWhenAsked) {
 TEST(Linearize, InputsOfASetpoint) {
   const LinearModel model =
       model_of(carts(1, {""}), controlled(servo("gains: {p: 4, d: 2}")), {"servo0/error"});
-  EXPECT_EQ(model.system.inputs, (std::vector<std::string>{"servo0/setpoint", "servo0/setpoint_rate",
-                                                           "servo0/disturbance"}));
+  EXPECT_EQ(
+      model.system.inputs,
+      (std::vector<std::string>{"servo0/setpoint", "servo0/setpoint_rate", "servo0/disturbance"}));
   EXPECT_NEAR(model.system.B(1, 0), 4.0, 1e-14);
   EXPECT_NEAR(model.system.B(1, 1), 2.0, 1e-14);
   EXPECT_NEAR(model.system.B(1, 2), 1.0, 1e-14);
@@ -341,9 +343,8 @@ std::vector<double> differences(const Problem& problem, Start start,
 // Loops, friction that depends on reactions, controllers, all in motion.
 TEST(Linearize, ShippedCasesAgreeWithDifferences) {
   for (const std::string name : {"slider_crank", "governor", "two_link_arm", "gantry"}) {
-    const Problem problem =
-        load_problem({name + ".urdf", file_text("urdf/" + name + ".urdf")}, {},
-                     {name + ".yaml", file_text("config/" + name + ".yaml")});
+    const Problem problem = load_problem({name + ".urdf", file_text("urdf/" + name + ".urdf")}, {},
+                                         {name + ".yaml", file_text("config/" + name + ".yaml")});
     const CompiledSystem& system = *system_of(problem);
     const LinearModel model = linearize_in_motion(system, problem.parameters(), {}, 0.0);
     ASSERT_TRUE(model.status.ok()) << model.status.cause;
@@ -359,7 +360,8 @@ TEST(Linearize, ShippedCasesAgreeWithDifferences) {
       const std::vector<double> expected =
           differences(problem, {joints[to_index(k % count)], k < count}, columns);
       for (Eigen::Index row = 0; row < count; ++row) {
-        const double scale = 1.0 + model.system.A.block(count, 0, count, 2 * count).cwiseAbs().maxCoeff();
+        const double scale =
+            1.0 + model.system.A.block(count, 0, count, 2 * count).cwiseAbs().maxCoeff();
         EXPECT_NEAR(model.system.A(count + row, k), expected[to_index(row)], 1e-6 * scale)
             << name << " " << model.system.states[to_index(k)];
       }
@@ -369,8 +371,8 @@ TEST(Linearize, ShippedCasesAgreeWithDifferences) {
 
 TEST(Linearize, RefusesAnInstantAfterTheEnd) {
   const Problem problem = loaded(pendulum_urdf(), "duration: 2\n");
-  const std::string message = refused(
-      [&] { linearize_in_motion(*system_of(problem), problem.parameters(), {}, 3.0); });
+  const std::string message =
+      refused([&] { linearize_in_motion(*system_of(problem), problem.parameters(), {}, 3.0); });
   EXPECT_NE(message.find("an instant after the end of the run"), std::string::npos) << message;
 }
 
