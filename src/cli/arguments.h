@@ -54,7 +54,4 @@ struct Arguments {
 /// one.
 Arguments parse_arguments(const std::vector<std::string>& words);
 
-/// The help text of a command; of all commands if there is none with this name.
-std::string usage(const std::string& command = "");
-
 }  // namespace codesign::cli
