@@ -17,7 +17,7 @@ namespace {
 /// The study without what is judged, whose watched signals are the outputs, then the outputs of its
 /// controllers.
 Study bare_study(const LinearCase& of) {
-  Study study = *of.study;
+  Study study = of.system->whole_study();
   study.integral.clear();
   study.terminal.clear();
   study.watched.clear();
@@ -59,24 +59,65 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
+/// Number of extra states of controllers, the first ones.
+int controller_states(const System& system) {
+  int count = 0;
+  for (std::size_t c = 0; c < system.controllers().size(); ++c) {
+    const Controller& of = system.controllers()[c];
+    const int queued = system.study().controllers[c].realization.queued();
+    const int last_of_queue = queued > 0 ? of.states.queue + queued - 1 : -1;
+    for (const int state :
+         {of.state, of.states.filter, of.states.last, of.states.held, last_of_queue, of.states.lag})
+      count = std::max(count, state + 1);
+  }
+  return count;
+}
+
+/// The state of a system as that of another one with the same bodies and pairs, whose controllers
+/// may do without integrals that have no effect.
+State<double> carried(const State<double>& state, const System& from, const System& to) {
+  State<double> result = state;
+  result.s.setZero(to.layout().states);
+  const auto carry = [&](int old_place, int new_place, int count) {
+    if (old_place >= 0 && new_place >= 0)
+      result.s.segment(new_place, count) = state.s.segment(old_place, count);
+  };
+  for (std::size_t c = 0; c < from.controllers().size(); ++c) {
+    const Controller &old_one = from.controllers()[c], &new_one = to.controllers()[c];
+    carry(old_one.state, new_one.state, 1);
+    carry(old_one.states.filter, new_one.states.filter, 1);
+    carry(old_one.states.last, new_one.states.last, 1);
+    carry(old_one.states.held, new_one.states.held, 1);
+    carry(old_one.states.queue, new_one.states.queue,
+          from.study().controllers[c].realization.queued());
+    carry(old_one.states.lag, new_one.states.lag, 1);
+  }
+  const int old_first = controller_states(from), new_first = controller_states(to);
+  carry(old_first, new_first, from.layout().states - old_first);
+  const Eigen::Index rates = to.layout().n + to.layout().m;
+  result.z.setZero(to.layout().columns());
+  result.z.head(rates) = state.z.head(rates);
+  return result;
+}
+
 class ModelWriter {
  public:
   ModelWriter(const LinearCase& of, const State<double>& state)
       : case_(of),
         study_(with_inputs(bare_study(of), of.parameters, state.t, of.at_rest)),
-        controllers_(of.study->controllers.size()),
+        controllers_(of.system->study().controllers.size()),
         system_(of.question.friction == LinearFriction::kOff && of.at_rest
-                    ? without_friction(*of.robot)
-                    : *of.robot,
-                study_.study, of.sharing),
+                    ? without_friction(of.system->robot())
+                    : of.system->robot(),
+                study_.study, of.system->sharing()),
         motion_(system_, study_),
         pattern_(sample_pattern(study_.study)) {}
 
   LinearModel write(const State<double>& state, const VectorX<double>& theta) {
     LinearModel model;
-    model.duration = case_.study->duration;
+    model.duration = study_of_case().duration;
     model.status = case_.at_rest ? motion_.linearize_at_rest(state, case_.integrals)
-                                 : motion_.linearize(state);
+                                 : motion_.linearize(carried(state, *case_.system, system_));
     if (!model.status.ok()) return model;
     closed_ = pattern_.period > 0.0 ? sampled_motion(&motion_, pattern_) : motion_.flow();
     add_modes(theta, &model);
@@ -88,6 +129,8 @@ class ModelWriter {
   }
 
  private:
+  const Study& study_of_case() const { return case_.system->whole_study(); }
+
   void add_modes(const VectorX<double>& theta, LinearModel* model) {
     const Eigen::MatrixXd rates = joint_rates(theta, &model->joints);
     const Eigen::Index f = motion_.motions() / 2;
@@ -104,7 +147,7 @@ class ModelWriter {
   std::string counted() const {
     std::vector<std::string> in{"damping", "controllers"}, out;
     bool is_rounded = false;
-    for (const ControllerDescription& controller : case_.study->controllers)
+    for (const ControllerDescription& controller : study_of_case().controllers)
       is_rounded = is_rounded || controller.realization.quantization > 0.0;
     if (pattern_.period > 0.0) in.emplace_back("samples");
     const bool without = case_.question.friction == LinearFriction::kOff && case_.at_rest;
@@ -139,7 +182,7 @@ class ModelWriter {
 
   ControllerLoop loop_of(std::size_t c) {
     ControllerLoop loop;
-    loop.controller = case_.study->controllers[c].name;
+    loop.controller = study_of_case().controllers[c].name;
     loop.why_not = why_no_margins(c);
     if (!loop.why_not.empty()) return loop;
     const OpenLoop open(pattern_.period > 0.0
@@ -160,7 +203,8 @@ class ModelWriter {
                     flow.A, flow.B.col(input), flow.C.row(row), flow.D.block(row, input, 1, 1)};
     const int lag = system_.controllers()[c].states.lag;
     if (lag < 0) return loop;
-    const double time = case_.study->controllers[c].realization.time_constant->at(case_.parameters);
+    const double time =
+        study_of_case().controllers[c].realization.time_constant->at(case_.parameters);
     loop.B.setZero();
     loop.B(motion_.motions() + lag, 0) = 1.0 / time;
     loop.D.setZero();

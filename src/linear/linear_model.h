@@ -5,15 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "description/robot.h"
-#include "description/study.h"
 #include "linear/linear_study.h"
 #include "linear/loop_margins.h"
 #include "linear/poles.h"
 #include "linear/state_space.h"
 #include "mechanism_codesign/status.h"
-#include "system/reaction_sharing.h"
-#include "system/state.h"
+#include "system/system.h"
 
 namespace codesign {
 
@@ -26,9 +23,7 @@ struct LinearQuestion {
 
 /// What is linearized.
 struct LinearCase {
-  const RobotDescription* robot = nullptr;
-  const Study* study = nullptr;
-  ReactionSharing sharing;
+  const System* system = nullptr;  ///< of the state, or of the mechanism whose posture it is
   std::vector<double> parameters;  ///< all named ones
   LinearQuestion question;
   bool at_rest = true;              ///< at a posture at rest; else at an instant of a run
@@ -65,8 +60,8 @@ struct LinearModel {
   std::string verdict;
 };
 
-/// @param state at rest: positions; else the whole state, consistent. @param theta tree coordinates
-/// of the start, Observer::observe().
+/// @param state at rest: positions; else the whole state of the system, consistent. @param theta
+/// tree coordinates of the start, Observer::observe().
 /// @throws InputError for outputs that do not exist, and as sample_pattern().
 LinearModel linear_model(const LinearCase& of, const State<double>& state,
                          const VectorX<double>& theta);

@@ -121,9 +121,9 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
         rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
   if (!found.status.ok()) return found;
-  found.linear = linear_model({&system.robot(), &system.whole_study(), system.sharing(), parameters,
-                               question, true, mechanism.integral_of_controllers()},
-                              mechanism.state(), mechanism.theta());
+  found.linear =
+      linear_model({&system, parameters, question, true, mechanism.integral_of_controllers()},
+                   mechanism.state(), mechanism.theta());
   found.status = found.linear.status;
   return found;
 }

@@ -35,9 +35,8 @@ LinearModel linearize_in_motion(const CompiledSystem& system, const std::vector<
   failed.status = run->start(parameters);
   while (failed.status.ok() && run->state().t < t) failed.status = run->advance(t);
   if (!failed.status.ok()) return failed;
-  return linear_model(
-      {&system.robot(), &system.whole_study(), system.sharing(), parameters, question, false},
-      run->state(), run->assembly().theta());
+  return linear_model({&system, parameters, question, false}, run->state(),
+                      run->assembly().theta());
 }
 
 }  // namespace codesign

@@ -369,6 +369,23 @@ TEST(Linearize, ShippedCasesAgreeWithDifferences) {
   }
 }
 
+// Integrals that only the objective reads, or whose gain is zero, are states of the run alone.
+TEST(Linearize, CarriesTheStatesOfARun) {
+  const Problem problem = loaded(
+      carts(1, {damped(1.0)}),
+      "duration: 2\ngravity: [0, 0, 0]\ninitial_state: {x0: {position: 1}}\ncontrollers: {servo0: "
+      "{type: pid, input: x0/position, setpoint: 0, output: x0, gains: {p: 4, d: 1, i: \"${Ki}\"}, "
+      "derivative_filter: 0.1, time_constant: 0.05}}\nparameters: {Ki: {initial: 0}}\nobjective: "
+      "{terminal: [{signal: servo0/integral}]}\n");
+  const CompiledSystem& system = *system_of(problem);
+  const LinearModel moving = linearize_in_motion(system, problem.parameters(), {}, 1.0);
+  ASSERT_TRUE(moving.status.ok()) << moving.status.cause;
+  const LinearModel resting = linearize_at_rest(system, problem.parameters(), {});
+  EXPECT_EQ(moving.system.states, resting.system.states);
+  EXPECT_LT((moving.system.A - resting.system.A).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_EQ(resting.system.A.rows(), 4);
+}
+
 TEST(Linearize, RefusesAnInstantAfterTheEnd) {
   const Problem problem = loaded(pendulum_urdf(), "duration: 2\n");
   const std::string message =
