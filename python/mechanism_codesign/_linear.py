@@ -17,10 +17,11 @@ class Linearization:
     With `period` from one period to the next, x(k+1) = A x(k) + B u(k). python-control takes control.ss(A, B, C, D), or
     control.ss(A, B, C, D, period).
 
-    A, B, C, D: arrays, shapes (n, n), (n, m), (r, n), (r, m), SI units.
+    A, B, C, D: arrays of shape (n, n), (n, m), (r, n) and (r, m), in SI units of states, inputs and outputs.
     states, inputs, outputs: the n, m and r names.
     period: common period of all sample times [s]; None without sampled controllers.
-    stability: "stable", "unstable" or "neutral"; verdict: the same as a sentence with what is counted.
+    stability: "stable", "unstable" or "neutral".
+    verdict: the same with the pole that decides and what is counted.
     modes: the least stable one first, each with growth [1/s], frequency [Hz], damping_ratio, rates of the joints and, sampled, radius.
     loops: by controller the margins, each None or {"value", "frequency"}, or {"why_not"}.
     """
@@ -42,7 +43,7 @@ class Linearization:
 
     @property
     def poles(self) -> ComplexArray:
-        """One of each conjugate pair, in the order of `modes` [1/s]."""
+        """One of each conjugate pair, in the order of `modes`, shape (len(modes),) [1/s]."""
         return np.array([mode["growth"] + 2j * np.pi * mode["frequency"] for mode in self.modes], np.complex128)
 
     def response(self, controller: str) -> Tuple[Array, ComplexArray]:
