@@ -98,6 +98,7 @@ LinearCoordinates linear_coordinates(const CompiledSystem& system,
   const Eigen::MatrixXd rows = constraint_rows(system, derivatives);
   const Eigen::MatrixXd N = orthogonal_complement(rows.transpose(), kRankOfRows);
   std::vector<int> tiers;
+  tiers.reserve(to_index(system.layout().n));
   for (int column = 0; column < system.layout().n; ++column)
     tiers.push_back(tier_of(system, column));
   LinearCoordinates result{choose_rows(N, tiers), {}, {}};
@@ -120,6 +121,7 @@ LinearCoordinates linear_coordinates(const CompiledSystem& system,
 std::vector<std::string> linear_state_names(const CompiledSystem& system,
                                             const std::vector<int>& columns) {
   std::vector<std::string> names;
+  names.reserve(2 * columns.size() + to_index(system.layout().states));
   for (const char* quantity : {"/position", "/velocity"})
     for (const int column : columns) names.push_back(coordinate_name(system, column) + quantity);
   const std::size_t first = names.size();

@@ -83,8 +83,8 @@ void visit_margins(const LoopMargins& margins, const Visit& visit) {
   visit("phase_margin", margins.phase_margin, "rad");
   visit("delay_margin", margins.delay_margin, "s");
   visit("bandwidth", margins.bandwidth, "rad/s");
-  visit("sensitivity", std::optional<AtFrequency>(margins.sensitivity), "-");
-  visit("complementary_sensitivity", std::optional<AtFrequency>(margins.complementary), "-");
+  visit("sensitivity", margins.sensitivity, "-");
+  visit("complementary_sensitivity", margins.complementary, "-");
 }
 
 }  // namespace codesign

@@ -83,6 +83,7 @@ bool is_given(const LoadFunction& function) {
 void add_load(std::size_t k, InputWriter* writer, LinearStudy* to) {
   const LoadDescription load = to->study.loads[k];
   const std::string name = "loads[" + std::to_string(k) + "]/";
+  const std::string force = name + "force/", torque = name + "torque/";
   LoadDescription beside = load;
   beside.effort = {};
   beside.force = beside.torque = {};
@@ -90,9 +91,9 @@ void add_load(std::size_t k, InputWriter* writer, LinearStudy* to) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string component(1, "xyz"[axis]);
     if (is_given(load.force[axis]))
-      beside.force[axis].of_time = writer->input(name + "force/" + component, 0.0);
+      beside.force[axis].of_time = writer->input(force + component, 0.0);
     if (is_given(load.torque[axis]))
-      beside.torque[axis].of_time = writer->input(name + "torque/" + component, 0.0);
+      beside.torque[axis].of_time = writer->input(torque + component, 0.0);
   }
   to->study.loads.push_back(beside);
 }

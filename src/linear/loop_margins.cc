@@ -99,6 +99,7 @@ AtFrequency peak_between(double low, double high, const Function& function) {
 template <class Function>
 AtFrequency largest(const std::vector<double>& grid, const Function& function) {
   std::vector<double> values;
+  values.reserve(grid.size());
   for (const double w : grid) values.push_back(function(w));
   AtFrequency best{values.front(), grid.front()};
   for (std::size_t k = 0; k < grid.size(); ++k) {
@@ -141,18 +142,17 @@ struct OpenLoop::Functions {
 };
 
 // With w = u - y the closed loop x' = A x + B w, y = C x + D w becomes the open one from u to y.
-OpenLoop::OpenLoop(const StateSpace& closed) : period_(closed.period) {
-  const Eigen::VectorXd b = closed.B.col(0);
-  const Eigen::RowVectorXd c = closed.C.row(0);
+OpenLoop::OpenLoop(const StateSpace& closed) : period_(closed.period), open_(closed) {
   const double d = closed.D(0, 0), per = 1.0 / (1.0 + d);
-  StateSpace open = closed;
-  for (Eigen::Index k = 0; k < b.size(); ++k) open.A.row(k) -= per * b[k] * c;
-  functions_ = std::make_unique<Functions>(Functions{
-      TransferFunction(closed.A, b, c, d), TransferFunction(open.A, per * b, per * c, per * d)});
-  const std::vector<Pole> poles = poles_of(closed);
-  is_stable_ = std::none_of(poles.begin(), poles.end(),
-                            [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
-  grid_ = grid_of(poles, poles_of(open), period_);
+  open_.A -= per * closed.B * closed.C;
+  open_.B *= per;
+  open_.C *= per;
+  open_.D *= per;
+  functions_ = std::make_unique<Functions>(
+      Functions{TransferFunction(closed.A, closed.B, closed.C, d),
+                TransferFunction(open_.A, open_.B, open_.C, open_.D(0, 0))});
+  is_stable_ = is_stable_with(1.0);
+  grid_ = grid_of(poles_of(closed), poles_of(open_), period_);
 }
 
 OpenLoop::~OpenLoop() = default;
@@ -161,6 +161,15 @@ OpenLoop::OpenLoop(OpenLoop&&) noexcept = default;
 Complex OpenLoop::at(double frequency) const {
   if (period_ > 0.0) return -functions_->open.at(std::polar(1.0, frequency * period_));
   return -functions_->open.at(Complex(0.0, frequency));
+}
+
+// u = factor y in place of u = y.
+bool OpenLoop::is_stable_with(double factor) const {
+  StateSpace closed = open_;
+  closed.A += factor / (1.0 - factor * open_.D(0, 0)) * open_.B * open_.C;
+  const std::vector<Pole> poles = poles_of(closed);
+  return std::none_of(poles.begin(), poles.end(),
+                      [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
 }
 
 Complex OpenLoop::closed_at(double frequency) const {
@@ -172,6 +181,7 @@ Complex OpenLoop::closed_at(double frequency) const {
 // its imaginary part is rounding.
 void OpenLoop::find_crossings(LoopMargins* margins) const {
   std::vector<Complex> L;
+  L.reserve(grid_.size());
   for (const double w : grid_) L.push_back(at(w));
   take_gain(at(0.0).real(), 0.0, margins);
   if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), margins);
@@ -190,29 +200,40 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
   }
 }
 
-LoopMargins OpenLoop::margins() const {
-  LoopMargins margins;
-  margins.is_stable = is_stable_;
-  find_crossings(&margins);
-  if (!is_stable_) {
-    margins.gain_margin.reset();
-    margins.delay_margin.reset();
-  } else if (margins.phase_margin) {
-    margins.phase_margin->value = std::abs(margins.phase_margin->value);
-  }
+// At infinite frequency L is its direct part.
+void OpenLoop::find_peaks(LoopMargins* margins) const {
   const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
-  margins.sensitivity = largest(grid_, [&](double w) { return std::abs(1.0 + closed_at(w)); });
-  margins.complementary = largest(grid_, complementary);
+  margins->sensitivity = largest(grid_, [&](double w) { return std::abs(1.0 + closed_at(w)); });
+  margins->complementary = largest(grid_, complementary);
+  const double far = functions_->closed.at_infinity();
+  if (period_ == 0.0 && std::abs(1.0 + far) > margins->sensitivity->value)
+    margins->sensitivity = AtFrequency{std::abs(1.0 + far), grid_.back()};
   const double level = std::sqrt(0.5) * complementary(0.0);
-  if (!std::isfinite(level) || level == 0.0) return margins;
+  if (!std::isfinite(level) || level == 0.0) return;
   for (std::size_t k = 0; k < grid_.size(); ++k) {
     if (complementary(grid_[k]) >= level) continue;
     const double w = zero_between(k == 0 ? 0.0 : grid_[k - 1], grid_[k],
                                   [&](double at_w) { return complementary(at_w) - level; });
-    margins.bandwidth = AtFrequency{w, w};
-    break;
+    margins->bandwidth = AtFrequency{w, w};
+    return;
   }
-  return margins;
+}
+
+LoopMargins OpenLoop::margins() const {
+  constexpr double kBelow = 0.999;  // a crossing
+  LoopMargins margins;
+  margins.is_stable = is_stable_;
+  find_crossings(&margins);
+  if (is_stable_) {
+    if (margins.phase_margin) margins.phase_margin->value = std::abs(margins.phase_margin->value);
+    find_peaks(&margins);
+    return margins;
+  }
+  LoopMargins unstable;
+  unstable.is_stable = false;
+  if (margins.gain_reduction && is_stable_with(kBelow * margins.gain_reduction->value))
+    unstable.gain_reduction = margins.gain_reduction;
+  return unstable;
 }
 
 }  // namespace codesign

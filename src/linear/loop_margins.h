@@ -19,9 +19,8 @@ struct AtFrequency {
 
 /// The margins of one controller's loop, opened at its output: L(s) with 1 + L = 0 at the poles of
 /// the closed loop; theory (69). Absent: there is no such crossing, the margin is infinite. A loop
-/// that is unstable has no gain and no delay to spare: both are absent, `gain_reduction` is the
-/// factor at which it would become stable if this is a matter of gain, and the phase margin has its
-/// sign.
+/// that is unstable has nothing to spare: all are absent but `gain_reduction`, if a lower gain
+/// makes it stable.
 struct LoopMargins {
   bool is_stable = true;  ///< whether no pole of the closed loop grows
   /// the smallest factor above 1 by which the gain may rise, and the largest one below 1 to which
@@ -29,10 +28,10 @@ struct LoopMargins {
   std::optional<AtFrequency> gain_margin, gain_reduction;
   std::optional<AtFrequency> phase_margin;  ///< smallest one where |L| = 1 [rad], a lead or a lag
   std::optional<AtFrequency> delay_margin;  ///< smallest further delay [s]
-  std::optional<AtFrequency>
-      bandwidth;              ///< value = frequency [rad/s]: |T| falls below |T(0)|/sqrt 2
-  AtFrequency sensitivity;    ///< Ms, the largest |1/(1 + L)|
-  AtFrequency complementary;  ///< Mt, the largest |L/(1 + L)|
+  /// value = frequency [rad/s]: |T| falls below |T(0)|/sqrt 2
+  std::optional<AtFrequency> bandwidth;
+  std::optional<AtFrequency> sensitivity;    ///< Ms, the largest |1/(1 + L)|
+  std::optional<AtFrequency> complementary;  ///< Mt, the largest |L/(1 + L)|
 };
 
 /// The loop of a controller as a transfer function.
@@ -52,12 +51,16 @@ class OpenLoop {
  private:
   struct Functions;
 
+  /// Whether no pole grows with another gain.
+  bool is_stable_with(double factor) const;
   void find_crossings(LoopMargins* margins) const;
+  void find_peaks(LoopMargins* margins) const;
   std::complex<double> closed_at(double frequency) const;
 
   std::unique_ptr<Functions> functions_;
   double period_;
   bool is_stable_;
+  StateSpace open_;
   std::vector<double> grid_;
 };
 

@@ -37,7 +37,9 @@ const char* name_of(Stability stability) {
 }
 
 double Pole::frequency() const { return std::abs(value.imag()) / (2.0 * kPi); }
-double Pole::damping_ratio() const { return value == 0.0 ? 0.0 : -value.real() / std::abs(value); }
+double Pole::damping_ratio() const {
+  return value.real() == 0.0 ? 0.0 : -value.real() / std::abs(value);
+}
 double Pole::radius(double period) const { return std::exp(value.real() * period); }
 bool Pole::is_zero(double duration) const {
   return std::abs(value) <= std::max(uncertainty, kStill / duration);

@@ -31,7 +31,7 @@ int common_samples(const std::vector<double>& times, double longest) {
 
 /// A multiple of the queue's length, above every number of a sample that still waits.
 std::int64_t first_sample(const ControlRealization& realization) {
-  return 2 * std::max(1, realization.queued());
+  return 2 * static_cast<std::int64_t>(std::max(1, realization.queued()));
 }
 
 class PatternWriter {

@@ -59,9 +59,9 @@ TEST(LoopMargins, PeaksOfASecondOrderLoop) {
   // L = w0^2/(s (s + 2 zeta w0)): T has the peak 1/(2 zeta sqrt(1 - zeta^2)), theory of lags.
   const double zeta = 0.3, w0 = 5.0;
   const LoopMargins margins = OpenLoop(closed_loop({w0 * w0}, {0.0, 2.0 * zeta * w0})).margins();
-  EXPECT_NEAR(margins.complementary.value, 1.0 / (2.0 * zeta * std::sqrt(1.0 - zeta * zeta)),
+  EXPECT_NEAR(margins.complementary->value, 1.0 / (2.0 * zeta * std::sqrt(1.0 - zeta * zeta)),
               1e-10);
-  EXPECT_NEAR(margins.complementary.frequency, w0 * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6);
+  EXPECT_NEAR(margins.complementary->frequency, w0 * std::sqrt(1.0 - 2.0 * zeta * zeta), 1e-6);
   // |T|^2 = 1/2: (1 - u)^2 + 4 zeta^2 u = 2 with u = (w/w0)^2
   const double half = 1.0 - 2.0 * zeta * zeta;
   EXPECT_NEAR(margins.bandwidth->value, w0 * std::sqrt(half + std::sqrt(half * half + 1.0)), 1e-9);
@@ -70,6 +70,14 @@ TEST(LoopMargins, PeaksOfASecondOrderLoop) {
                         std::sqrt(std::sqrt(1.0 + 4.0 * std::pow(zeta, 4)) - 2.0 * zeta * zeta)),
               1e-10);
   EXPECT_FALSE(margins.gain_margin);
+}
+
+// S of an integrator is below 1 and tends to it.
+TEST(LoopMargins, OfAnIntegrator) {
+  const LoopMargins margins = OpenLoop(closed_loop({3.0}, {0.0})).margins();
+  EXPECT_EQ(margins.sensitivity->value, 1.0);
+  EXPECT_NEAR(margins.bandwidth->value, 3.0, 1e-9);
+  EXPECT_NEAR(margins.delay_margin->value, kHalf / 6.0, 1e-9);
 }
 
 TEST(LoopMargins, OfAnUnstablePlant) {
@@ -86,8 +94,11 @@ TEST(LoopMargins, AnUnstableLoopHasNothingToSpare) {
   EXPECT_FALSE(margins.is_stable);
   EXPECT_FALSE(margins.gain_margin);
   EXPECT_FALSE(margins.delay_margin);
-  EXPECT_NEAR(margins.gain_reduction->value, 0.75, 1e-10);
-  EXPECT_LT(margins.phase_margin->value, 0.0);
+  EXPECT_FALSE(margins.phase_margin);
+  EXPECT_FALSE(margins.sensitivity);
+  EXPECT_NEAR(margins.gain_reduction->value, 0.75, 1e-10) << "at which it would be stable";
+  // 1/(s - 1) with half of the gain that it needs: less of it does not help.
+  EXPECT_FALSE(OpenLoop(closed_loop({0.5}, {-1.0})).margins().gain_reduction);
 }
 
 TEST(LoopMargins, OfASampledIntegrator) {
