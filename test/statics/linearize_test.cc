@@ -2,6 +2,7 @@
 #include "statics/linearize.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "assembly/assembly.h"
@@ -366,6 +367,57 @@ TEST(Linearize, ShippedCasesAgreeWithDifferences) {
             << name << " " << model.system.states[to_index(k)];
       }
     }
+  }
+}
+
+// A cart with two pendulums: gains that place the poles at -3, -3.5, ..., -5.5, and the same with
+// velocity gains of the other sign.
+TEST(Linearize, StateFeedbackPlacesPoles) {
+  const auto part = [](const std::string& name, double mass, double height, double inertia,
+                       double about) {
+    const std::string number = std::to_string(inertia);
+    return "<link name=\"" + name + "\"><inertial><origin xyz=\"0 0 " + std::to_string(height) +
+           "\"/><mass value=\"" + std::to_string(mass) + "\"/><inertia ixx=\"" + number +
+           "\" ixy=\"0\" ixz=\"0\" iyy=\"" + number + "\" iyz=\"0\" izz=\"" +
+           std::to_string(about) + "\"/></inertial></link>";
+  };
+  const std::string urdf =
+      R"(<robot name="dip"><link name="ground"/>)" + part("cart", 1.0, 0.0, 0.1, 0.1) +
+      part("lower", 0.3, 0.25, 0.006, 0.001) + part("upper", 0.2, 0.3, 0.005, 0.001) +
+      joint("rail", "prismatic", "ground", "cart", "0 0 0", "1 0 0",
+            R"(<limit effort="0" velocity="0"/><dynamics damping="0.5"/>)") +
+      joint("hip", "continuous", "cart", "lower", "0 0 0", "0 1 0", damped(0.01)) +
+      joint("knee", "continuous", "lower", "upper", "0 0 0.5", "0 1 0", damped(0.02)) + "</robot>";
+  const auto study = [](const std::string& sign) {
+    const std::array<const char*, 6> gains{"4.554143403667005",  "32.50835324766638",
+                                           "166.3134325767466",  "6.442982146047887",
+                                           "21.550643131580546", "20.36884376076116"};
+    const std::array<const char*, 6> signals{"rail/position", "hip/position", "knee/position",
+                                             "rail/velocity", "hip/velocity", "knee/velocity"};
+    std::string text =
+        "duration: 12\ncontrollers: {balance: {type: state_feedback, output: rail, feedback: [";
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      text += std::string(k == 0 ? "" : ", ") + "{signal: " + signals[k] +
+              ", gain: " + (k < 3 ? "" : sign) + gains[k] + "}";
+    return text + "]}}\n";
+  };
+  const LinearModel model = model_of(urdf, study(""));
+  expect_poles(model, {-3.0, -3.5, -4.0, -4.5, -5.0, -5.5}, 1e-8);
+  EXPECT_EQ(model.verdict,
+            "stable: slowest pole -3 1/s; damping and controllers counted, friction not");
+  EXPECT_EQ(model_of(urdf, study("-")).stability, Stability::kUnstable);
+}
+
+// A load that follows the speed drives what it should brake.
+TEST(Linearize, ALoadThatFollowsTheSpeed) {
+  for (const double slope : {-0.05, 0.05}) {
+    const LinearModel model =
+        model_of(balanced_arm(2.0, 0.0),
+                 "duration: 60\ninitial_state: {hinge: {position: 3.1}}\nloads: [{joint: hinge, "
+                 "effort: \"${" +
+                     std::to_string(slope) + "*hinge/velocity}\"}]\n");
+    EXPECT_NEAR(model.modes[0].pole.growth(), slope / (2.0 * 0.51), 1e-12);
+    EXPECT_EQ(model.stability, slope < 0.0 ? Stability::kStable : Stability::kUnstable);
   }
 }
 
