@@ -23,7 +23,7 @@ class Linearization:
     stability: "stable", "unstable" or "neutral".
     verdict: the same with the pole that decides and what is counted.
     modes: the least stable one first, each with growth [1/s], frequency [Hz], damping_ratio, rates of the joints and, sampled, radius.
-    loops: by controller the margins, each None or {"value", "frequency"}, or {"why_not"}.
+    loops: by controller the margins that there are, each {"value", "frequency"} [rad, s, rad/s], or {"why_not"}.
     """
 
     def __init__(self, record: Dict[str, Any]):

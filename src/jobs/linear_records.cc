@@ -57,11 +57,11 @@ Json loops_json(const LinearModel& model, bool with_response) {
   for (const ControllerLoop& loop : model.loops) {
     Json entry = Json::object();
     if (loop.why_not.empty())
-      visit_margins(loop.margins, [&](const char* name, const std::optional<AtFrequency>& margin,
-                                      const char*) {
-        entry[name] = margin ? Json{{"value", margin->value}, {"frequency", margin->frequency}}
-                             : Json(nullptr);
-      });
+      visit_margins(loop.margins,
+                    [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
+                      if (margin)
+                        entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
+                    });
     else
       entry["why_not"] = loop.why_not;
     if (with_response && loop.why_not.empty()) entry["response"] = response_of(loop);

@@ -10,7 +10,8 @@ namespace codesign {
 void add_stability(const LinearModel& model, Json* object);
 /// Sets `states`, `inputs`, `outputs`, `A`, `B`, `C`, `D` (lists of rows).
 void add_matrices(const StateSpace& system, Json* object);
-/// By controller: the margins of visit_margins() with their frequencies, or `why_not`.
+/// By controller: the margins of visit_margins() that there are, with their frequencies, or
+/// `why_not`.
 /// @param with_response whether L at all frequencies is added.
 Json loops_json(const LinearModel& model, bool with_response);
 
