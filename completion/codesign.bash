@@ -10,6 +10,7 @@ _codesign_value() {
     --csv | -o) mapfile -t COMPREPLY < <(compgen -f -- "$2") ;;
     --output | --resume) mapfile -t COMPREPLY < <(compgen -d -- "$2") ;;
     --from) mapfile -t COMPREPLY < <(compgen -W "$("${COMP_WORDS[0]}" new 2>/dev/null | cut -d ' ' -f 1)" -- "$2") ;;
+    --friction) mapfile -t COMPREPLY < <(compgen -W "off regularised" -- "$2") ;;
     --base) mapfile -t COMPREPLY < <(compgen -W "floating" -- "$2") ;;
     --verify) mapfile -t COMPREPLY < <(compgen -W "complex_step ridders" -- "$2") ;;
     *) COMPREPLY=() ;;

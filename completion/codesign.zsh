@@ -22,6 +22,7 @@ _codesign() {
       --csv|-o) action=_files ;;
       --output|--resume) action='_files -/' ;;
       --from) action="($(${words[1]} new 2>/dev/null | cut -d ' ' -f 1 | tr '\n' ' '))" ;;
+      --friction) action='(off regularised)' ;;
       --base) action='(floating)' ;;
       --verify) action='(complex_step ridders)' ;;
       *) action=' ' ;;

@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core, _notebook
 from ._errors import ComputationError, Status, Warning
+from ._linear import Linearization
 from ._results import Fit, FitTrial, Result, Run, Stage, Trial
 
 Array = npt.NDArray[np.float64]
@@ -164,6 +165,22 @@ class Problem:
         if failure is not None:
             raise ComputationError(run.status, run)
         return run
+
+    def linearize(self, rho: Optional[npt.ArrayLike] = None, /, *, at: Optional[float] = None, signals: Optional[Sequence[str]] = None,
+                  friction: str = "off", **parameters: float) -> Linearization:
+        """Small motions at one design: poles, margins of the controllers, matrices; `codesign linearize`.
+
+        at: time of the run [s]; without it about the equilibrium near the start of the study.
+        signals: the outputs. friction: whether it counts about rest, "off" or "regularised".
+
+        Raises ComputationError if there is no equilibrium, or the run fails before.
+        """
+        if isinstance(signals, str):
+            signals = [signals]
+        failure, record = self._core.linearize(rho, parameters, list(() if signals is None else signals), friction, at)
+        if failure is not None:
+            raise ComputationError(Status(**failure))
+        return Linearization(record)
 
     def _evaluate(self, rho: Optional[npt.ArrayLike], parameters: Dict[str, float], derivatives: int,
                   by_adjoint: bool = False) -> Tuple[float, Array, Array]:

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 
+#include "cli/command_help.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -88,6 +90,22 @@ void set_base(const std::string& text, Arguments* arguments) {
   arguments->floating_base = true;
 }
 
+void set_friction(const std::string& text, Arguments* arguments) {
+  for (std::size_t k = 0; k < kLinearFrictionNames.size(); ++k)
+    if (text == kLinearFrictionNames[k]) {
+      arguments->friction = static_cast<LinearFriction>(k);
+      return;
+    }
+  throw UsageError("--friction must be off or regularised, not \"" + text + "\"");
+}
+
+void set_time(const std::string& text, Arguments* arguments) {
+  const std::optional<double> time = parse_number(text);
+  if (!time || !std::isfinite(*time) || *time < 0.0)
+    throw UsageError("--at must be a time of the run in seconds, 0 or more, not \"" + text + "\"");
+  arguments->time = *time;
+}
+
 void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   if (!arguments->output.empty() && arguments->output != path)
     throw UsageError("--output and --resume: \"" + arguments->output + "\" and \"" + path +
@@ -96,13 +114,11 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   arguments->resume = arguments->resume || resume;
 }
 
-Names command_names();
-
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
-  static const Names kOfDesigns = {"check",    "urdf",     "simulate", "efforts", "equilibrium",
-                                   "gradient", "optimize", "identify", "excite"};
+  static const Names kOfDesigns = {"check",     "urdf",     "simulate", "efforts",  "equilibrium",
+                                   "linearize", "gradient", "optimize", "identify", "excite"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
@@ -122,12 +138,15 @@ const std::map<std::string, Option>& options() {
        {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->fill = true; }}},
       {"--run",
        {Value::kRequired,
-        {"simulate", "efforts", "equilibrium", "gradient"},
+        {"simulate", "efforts", "equilibrium", "linearize", "gradient"},
         [](const std::string& text, Arguments* to) { to->run = text; }}},
-      {"--signals", {Value::kRequired, {"simulate", "efforts", "equilibrium"}, add_signals}},
+      {"--signals",
+       {Value::kRequired, {"simulate", "efforts", "equilibrium", "linearize"}, add_signals}},
+      {"--friction", {Value::kRequired, {"equilibrium", "linearize"}, set_friction}},
+      {"--at", {Value::kRequired, {"linearize"}, set_time}},
       {"--csv",
        {Value::kRequired,
-        {"simulate", "efforts"},
+        {"simulate", "efforts", "linearize"},
         [](const std::string& text, Arguments* to) { to->csv = text; }}},
       {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
@@ -210,109 +229,6 @@ bool asks_for_help(const Names& words) {
          std::count(words.begin(), words.end(), "-h") > 0;
 }
 
-/// The help of one command: its line with arguments and meaning, then its options.
-struct CommandHelp {
-  std::string name, text;
-};
-
-constexpr const char* kFiles =
-    "MODEL is an annotated URDF (doc/annotations.md), STUDY a YAML file (doc/study.md).\n";
-
-const CommandHelp kCommands[] = {
-    {"check", R"(  check MODEL [STUDY]      the table of equations, redundant constraints
-)"},
-    {"urdf",
-     R"(  urdf MODEL [STUDY]       the URDF that is simulated: overlays merged, parameters at their values
-    --sticks               for viewers: links without <visual>, or whose meshes are not here,
-                           get sticks and spheres
-    --fill                 first write each plain number that an expression beside it gives
-)"},
-    {"overlay",
-     R"(  overlay MODEL            an overlay to begin with: what a vendor's URDF does not say (base,
-                           masses, rotors, gears, friction), with a line for each number to fill in
-)"},
-    {"simulate", R"(  simulate MODEL STUDY     one run as CSV
-    --signals A,B          the signals to print; by default of all joints, frictions, controllers
-    --csv FILE             the file to write; by default standard output
-    --samples N            number of equally spaced instants, at least 2; by default 101
-    --run NAME             one of the study's runs, in place of the study itself
-)"},
-    {"efforts",
-     R"(  efforts MODEL STUDY      the efforts that the set-points of the study need, or the postures of
-                           efforts.grid, there with those at which friction gives way; as CSV
-    --signals A,B          further signals, such as reactions
-    --csv FILE             the file to write; by default standard output
-    --samples N            along set-points: number of equally spaced instants; by default 101
-    --run NAME             one of the study's runs, in place of the study itself
-)"},
-    {"equilibrium",
-     R"(  equilibrium MODEL STUDY  a posture near the start in which everything rests, and its stability
-    --signals A,B          further signals there, such as reactions
-    --run NAME             one of the study's runs, in place of the study itself
-)"},
-    {"gradient",
-     R"(  gradient MODEL STUDY     the objective and its gradient by direct sensitivities
-    --verify               compare with a complex step (with idas: Ridders' differences) along one
-                           direction; where that disagrees, by each parameter
-    --verify=METHOD        compare by each parameter, with complex_step or ridders
-    --run NAME             one of the study's runs, in place of the measure over all
-)"},
-    {"optimize",
-     R"(  optimize MODEL STUDY     tune the study's parameters; Ctrl-C ends with the best point so far
-    --output DIR           write result.json, tuned.urdf, gains.yaml, tables of both runs and of
-                           the search (doc/results.md); best.urdf and best.json while it runs
-    --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
-)"},
-    {"identify",
-     R"(  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
-    --output DIR           write identification.json, identified_overlay.urdf, identified.urdf,
-                           residuals.csv and job_study.yaml, the study
-)"},
-    {"excite",
-     R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
-    --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
-)"},
-    {"new",
-     R"(  new [NAME]               a project of your own, the folder NAME, from a machine of the gallery;
-                           without NAME the machines are listed
-    --from MACHINE         the machine whose model and study are copied
-)"},
-    {"report",
-     R"(  report DIR|BAG           a page with all that an optimization or identification has found, or
-                           with the curves and maps of a file of efforts --json
-    -o FILE                the page; by default report.html
-)"},
-    {"apply",
-     R"(  apply DIR|BAG            send the gains of an optimization to a running robot, along a ramp, and
-                           take them back if it leaves its limits (apply --help; with ROS)
-)"},
-};
-
-constexpr const char* kOtherCommands =
-    R"(  help [COMMAND]           this text, or the options of one command
-  --version                the version of this program, as "codesign 0.3.0"
-)";
-
-constexpr const char* kSharedOptions =
-    R"(  --overlay FILE           annotations to merge into the model; may be repeated
-  --base floating          the root link moves freely in space: a drone, a walking robot
-  --result FILE            take the design of a result.json; of another study what fits
-  --set PARAMETER=VALUE    replace a parameter's value, or the start of a tuned one; may be repeated
-  --json                   one JSON object on standard output, with this program's version
-  --quiet                  no progress on standard error; warnings and errors stay
-)";
-
-Names command_names() {
-  Names names;
-  for (const CommandHelp& command : kCommands) names.push_back(command.name);
-  return names;
-}
-
-constexpr const char* kExitCodes = R"(
-exit code: 0 success, 1 a failed run or output that cannot be written, 2 bad input
-the codes of failures (error.code in JSON) are listed in doc/statuses.md
-)";
-
 }  // namespace
 
 Arguments parse_arguments(const std::vector<std::string>& words) {
@@ -353,31 +269,6 @@ Arguments parse_arguments(const std::vector<std::string>& words) {
     throw UsageError("\"" + arguments.command +
                      "\" needs a STUDY, the path of a YAML file, after the MODEL");
   return arguments;
-}
-
-std::string usage(const std::string& command) {
-  const auto one = std::find_if(std::begin(kCommands), std::end(kCommands),
-                                [&](const CommandHelp& help) { return help.name == command; });
-  if (one != std::end(kCommands)) {
-    if (command == "new")
-      return "usage: codesign new [NAME --from MACHINE] [--json] [--quiet]\n\n" + one->text;
-    if (command == "overlay")
-      return "usage: codesign overlay MODEL [--overlay FILE] [--json] [--quiet]\n\n" + one->text +
-             "    --overlay FILE         what it gives is not asked for again; may be repeated\n";
-    const bool is_for_jobs = command == "report" || command == "apply";
-    const std::string head =
-        "usage: codesign " + command +
-        (is_for_jobs ? " DIR|BAG [OPTIONS]\n\n" : " MODEL [STUDY] [OPTIONS]\n\n");
-    return head + one->text +
-           (is_for_jobs
-                ? ""
-                : std::string("\noptions of every command\n") + kSharedOptions + '\n' + kFiles);
-  }
-  std::string text =
-      std::string("usage: codesign COMMAND MODEL [STUDY] [OPTIONS]\n\n") + kFiles + "\ncommands\n";
-  for (const CommandHelp& help : kCommands) text += help.text;
-  return text + kOtherCommands + "\noptions of every command but new, report and apply\n" +
-         kSharedOptions + kExitCodes;
 }
 
 }  // namespace codesign::cli

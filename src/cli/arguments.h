@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "linear/linear_study.h"
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
 
@@ -20,8 +21,8 @@ class UsageError : public std::runtime_error {
 /// name their command.
 struct Arguments {
   std::string topic;  ///< help; the command that it is about, empty: all
-  /// check, urdf, overlay, simulate, efforts, equilibrium, gradient, optimize, identify, excite,
-  /// new, help or version
+  /// check, urdf, overlay, simulate, efforts, equilibrium, linearize, gradient, optimize, identify,
+  /// excite, new, help or version
   std::string command;
   std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
   std::string study;  ///< path; empty: none given
@@ -34,10 +35,13 @@ struct Arguments {
   bool sticks = false;               ///< urdf; with_sticks()
   bool fill = false;                 ///< urdf; write_filled_urdf()
   std::string run;                   ///< of the study's runs; empty: the study itself
-  std::vector<std::string> signals;  ///< simulate, efforts, equilibrium
-  std::string csv;                   ///< simulate, efforts; empty: standard output
-  int samples = 101;                 ///< simulate, efforts; equally spaced instants, at least 2
-  bool verify = false;               ///< gradient
+  std::vector<std::string> signals;  ///< simulate, efforts, equilibrium, linearize
+  /// equilibrium, linearize; what of friction about rest counts
+  LinearFriction friction = LinearFriction::kOff;
+  double time = -1.0;           ///< linearize; [s] of the run, negative: about the equilibrium
+  std::string csv;              ///< simulate, efforts, linearize; empty: standard output
+  int samples = 101;            ///< simulate, efforts; equally spaced instants, at least 2
+  bool verify = false;          ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
   std::string output;   ///< optimize, identify, excite; empty: no files
@@ -49,8 +53,5 @@ struct Arguments {
 /// @throws UsageError that names the word and, for an unknown option or command, the nearest known
 /// one.
 Arguments parse_arguments(const std::vector<std::string>& words);
-
-/// The help text of a command; of all commands if there is none with this name.
-std::string usage(const std::string& command = "");
 
 }  // namespace codesign::cli

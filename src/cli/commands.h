@@ -15,6 +15,7 @@ int check(const Arguments& arguments, const Console& console);
 int simulate(const Arguments& arguments, const Console& console);
 int efforts(const Arguments& arguments, const Console& console);
 int equilibrium(const Arguments& arguments, const Console& console);
+int linearize(const Arguments& arguments, const Console& console);
 int urdf(const Arguments& arguments, const Console& console);
 int overlay(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "cli/arguments.h"
+#include "cli/command_help.h"
 #include "cli/commands.h"
 #include "cli/hand_over.h"
 #include "cli/report.h"
@@ -24,6 +25,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "simulate") return simulate(arguments, console);
   if (arguments.command == "efforts") return efforts(arguments, console);
   if (arguments.command == "equilibrium") return equilibrium(arguments, console);
+  if (arguments.command == "linearize") return linearize(arguments, console);
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
   if (arguments.command == "identify") return identify(arguments, console);

@@ -9,6 +9,7 @@
 #include "description/study.h"
 #include "jobs/job_files.h"
 #include "jobs/json_records.h"
+#include "jobs/linear_records.h"
 #include "jobs/optimization_records.h"
 #include "jobs/saved_result.h"
 #include "math/arrays.h"
@@ -159,6 +160,24 @@ py::tuple simulate(const Session& session, const py::object& rho, const py::dict
                         RunNotes{session.problem(), std::move(design), std::move(run.summary)});
 }
 
+/// (failure or None, record of the linearization)
+py::tuple linearize(const Session& session, const py::object& rho, const py::dict& settings,
+                    const py::list& signals, const std::string& friction, const py::object& at) {
+  const std::vector<double> design = design_of(session, rho, settings);
+  const std::vector<std::string> outputs = names_of(signals, "signals");
+  const std::optional<double> time =
+      at.is_none() ? std::nullopt : std::optional(to_numbers(py::make_tuple(at), "at").front());
+  const LinearModel model = interruptible([&](const std::atomic<bool>* cancel) {
+    return session.linearize(design, outputs, friction, time, cancel);
+  });
+  if (!model.status.ok()) return py::make_tuple(to_python(to_json(model.status)), py::dict());
+  Json record = Json::object();
+  add_stability(model, &record);
+  add_matrices(model.system, &record);
+  record["loops"] = loops_json(model, true);
+  return py::make_tuple(py::none(), to_python(record));
+}
+
 /// The summary of record_design(): ranges and units of signals, energies, poses of all links.
 py::object details(const Session& session, const py::object& rho, const py::dict& settings) {
   const std::vector<double> design = design_of(session, rho, settings);
@@ -296,6 +315,7 @@ void add_session(py::module_* module) {
                              })
       .def("evaluate", &evaluate)
       .def("simulate", &simulate)
+      .def("linearize", &linearize)
       .def("details", &details)
       .def("urdf", &urdf)
       .def("optimize",

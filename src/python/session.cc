@@ -15,6 +15,7 @@
 #include "optimization/algorithm.h"
 #include "problem/load_problem.h"
 #include "sensitivity/gradient_engine.h"
+#include "statics/linearize.h"
 #include "text/number_text.h"
 
 namespace codesign::python {
@@ -210,6 +211,25 @@ RunTable Session::run(const std::vector<double>& parameters,
     if (evaluation.status.ok()) summary.objective = evaluation.objective;
   }
   return table;
+}
+
+LinearModel Session::linearize(const std::vector<double>& parameters,
+                               const std::vector<std::string>& outputs, const std::string& friction,
+                               std::optional<double> at, const std::atomic<bool>* cancel) const {
+  const auto known = std::find(kLinearFrictionNames.begin(), kLinearFrictionNames.end(), friction);
+  if (known == kLinearFrictionNames.end())
+    throw InputError({{kCall, 0},
+                      "friction",
+                      "this is no way to count friction about rest",
+                      friction,
+                      "off or regularised"});
+  if (at && !(*at >= 0.0 && std::isfinite(*at)))
+    throw InputError({{kCall, 0}, "at", "not a time of the run", to_decimal(*at), "0 s or more"});
+  const LinearQuestion question{
+      checked(outputs), static_cast<LinearFriction>(known - kLinearFrictionNames.begin()), true};
+  const CompiledSystem& system = *system_of(problem_);
+  return at ? linearize_in_motion(system, parameters, question, *at, cancel)
+            : linearize_at_rest(system, parameters, question, cancel);
 }
 
 }  // namespace codesign::python

@@ -11,6 +11,7 @@
 
 #include "ensemble/ensemble.h"
 #include "jobs/run_recorder.h"
+#include "linear/linear_model.h"
 #include "problem/load_problem.h"
 
 namespace codesign::python {
@@ -65,6 +66,13 @@ class Session {
   /// signal that does not exist, and fewer than two samples
   RunTable run(const std::vector<double>& parameters, const std::vector<std::string>& signals,
                int samples, const std::atomic<bool>* cancel) const;
+
+  /// Small motions of the study at a design, with margins. @param at [s] of the run; none: about
+  /// the equilibrium. @param friction of kLinearFrictionNames. @throws InputError as run(), for
+  /// another friction, and as linearize_at_rest() and linearize_in_motion()
+  LinearModel linearize(const std::vector<double>& parameters,
+                        const std::vector<std::string>& outputs, const std::string& friction,
+                        std::optional<double> at, const std::atomic<bool>* cancel) const;
 
  private:
   std::vector<SignalDescription> checked(const std::vector<std::string>& signals) const;

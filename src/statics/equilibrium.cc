@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/assembly.h"
-#include "control/reference.h"
-#include "equations/compiled_system.h"
-#include "identification/effort/driven_motion.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "observation/observer.h"
+#include "statics/integral_rest.h"
+#include "statics/resting_mechanism.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 
@@ -21,148 +19,8 @@ constexpr int kMostSteps = 1000;
 constexpr int kMostTries = 40;        // of shorter steps
 constexpr double kLongestStep = 0.2;  // of any coordinate [rad or m]
 constexpr double kSmallStep = 1e-10;  // relative to the coordinates; the next one would be rounding
-constexpr double kRankOfRows = 1e-8;  // as rounding leaves of rows that depend on each other
-constexpr double kNeutral = 1e-3;     // growth or turn of a mode in the duration of the study
+constexpr double kLongest = 1e3;      // time that a step stands for, in durations of the study
 constexpr double kGrowthInAStep = 0.5;  // of a motion that leads away
-
-/// The function at t = 0, for ever.
-ReferenceDescription held(const ReferenceDescription& function,
-                          const std::vector<double>& parameters) {
-  return {Reference<double>(function, parameters).at(0.0).value};
-}
-
-void hold(const std::vector<double>& parameters, ControllerDescription* controller) {
-  if (controller->i.at(parameters) != 0.0)
-    throw InputError(
-        {controller->where, "controllers." + controller->name + ".gains.i",
-         "a controller with an integral rests where its error is zero, whatever output "
-         "this needs",
-         to_decimal(controller->i.at(parameters)),
-         "0; the output comes from `codesign efforts` in the posture of its setpoint"});
-  controller->setpoint = held(controller->setpoint, parameters);
-  controller->feedforward = held(controller->feedforward, parameters);
-  for (FeedbackTerm& term : controller->feedback) term.reference = held(term.reference, parameters);
-  ControlRealization statically;
-  statically.output_limit = controller->realization.output_limit;
-  controller->realization = statically;
-}
-
-/// The study as it is at rest at t = 0, without what is judged.
-Study study_at_rest(Study study, const std::vector<double>& parameters) {
-  for (ControllerDescription& controller : study.controllers) hold(parameters, &controller);
-  for (GivenMotion& motion : study.motion) motion.position = held(motion.position, parameters);
-  for (InitialJointState& initial : study.initial_state) {
-    initial.velocity.reset();
-    initial.linear_velocity.reset();
-    initial.angular_velocity.reset();
-    initial.stuck = false;
-  }
-  study.integral.clear();
-  study.terminal.clear();
-  study.watched.clear();
-  return study;
-}
-
-/// The mechanism at rest in one posture after the other.
-class RestingMechanism {
- public:
-  RestingMechanism(const CompiledSystem& system, const std::vector<double>& parameters)
-      : system_{std::make_shared<const CompiledSystem>(
-                    system.robot(), study_at_rest(system.whole_study(), parameters),
-                    system.sharing()),
-                {},
-                {}},
-        layout_(system_.system->layout()),
-        parameters_(parameters),
-        motion_(system_) {
-    motion_.set_design(parameters);
-    derivatives_.resize(system_.system->patterns());
-  }
-
-  const CompiledSystem& system() const { return *system_.system; }
-
-  Status begin() {
-    StartWorkspace start(*system_.system, parameters_);
-    if (Status status = start.solve_positions(); !status.ok()) return status;
-    theta_ = start.assembly.theta();
-    state_.resize(layout_);
-    state_.q = start.state.q;
-    state_.turns = start.state.turns;
-    return motion_.solve({}, &state_);
-  }
-
-  /// Goes to coordinates near the present ones; stays after a failure.
-  Status go_to(const Eigen::VectorXd& q) {
-    State<double> trial = state_;
-    trial.q = q;
-    Status status = motion_.solve({}, &trial);
-    if (!status.ok()) return status;
-    motion_.equations().track_turns(&trial);
-    state_ = std::move(trial);
-    return status;
-  }
-
-  const VectorX<double>& q() const { return state_.q; }
-  Eigen::VectorXd acceleration() const { return state_.z.head(layout_.n); }
-
-  /// An orthonormal basis N of the velocities that the constraints allow, and the derivatives of
-  /// the acceleration along its columns.
-  Status linearize(Eigen::MatrixXd* N, Eigen::MatrixXd* slopes) {
-    if (Status status = motion_.linearize(state_); !status.ok()) return status;
-    motion_.equations().linearize(state_, &derivatives_);
-    *N = orthogonal_complement(constraint_rows().transpose(), kRankOfRows);
-    slopes->resize(layout_.n, N->cols());
-    State<double> direction;
-    direction.resize(layout_);
-    VectorX<double> change;
-    for (Eigen::Index k = 0; k < N->cols(); ++k) {
-      direction.q = N->col(k);
-      directional_derivative(*system_.system, derivatives_, direction, &change);
-      VectorX<double> rates = -change.head(layout_.columns());
-      motion_.lu().solve(rates);
-      slopes->col(k) = rates.head(layout_.n);
-    }
-    return {};
-  }
-
-  void observe(Observer* observer, Frame* frame) {
-    observer->observe(state_, 0.0, theta_, &motion_.equations(), frame);
-  }
-  /// The rates of the joints of `observer` at a velocity.
-  std::vector<double> joint_rates(const Eigen::VectorXd& v, Observer* observer) {
-    State<double> moving = state_;
-    moving.v = v;
-    Frame frame;
-    observer->observe(moving, 0.0, theta_, &motion_.equations(), &frame);
-    std::vector<double> rates;
-    for (const JointSample& joint : frame.joints) rates.push_back(joint.velocity);
-    return rates;
-  }
-
- private:
-  /// The rows of Phi_q that are enforced.
-  Eigen::MatrixXd constraint_rows() const {
-    const System& system = *system_.system;
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(layout_.constraints(), layout_.n);
-    const Sparsity& pattern = system_.system->patterns().rate;
-    for (int row = 0; row < layout_.constraints(); ++row) {
-      const int of = layout_.lambda_column(row);
-      for (int e = pattern.first(of); e < pattern.first(of + 1); ++e)
-        if (pattern.column(e) < layout_.n)
-          rows(row, pattern.column(e)) = derivatives_.rate[to_index(e)];
-    }
-    for (const int row : system.dropped_rows()) rows.row(row).setZero();
-    return rows;
-  }
-
-  const DrivenSystem system_;  ///< nothing is driven
-  const Layout& layout_;
-  const std::vector<double> parameters_;
-  DrivenMotion motion_;
-  Linearization<double> derivatives_;
-  State<double> state_;
-  VectorX<double> theta_;
-};
 
 /// The free motions about a posture, in the coordinates y of a basis N.
 struct FreeMotions {
@@ -178,9 +36,8 @@ struct FreeMotions {
 };
 
 Status find_free_motions(RestingMechanism* mechanism, FreeMotions* free) {
-  Eigen::MatrixXd slopes;
-  if (Status status = mechanism->linearize(&free->N, &slopes); !status.ok()) return status;
-  free->A = transposed_product(free->N, slopes);
+  if (Status status = mechanism->linearize(&free->N); !status.ok()) return status;
+  free->A = transposed_product(free->N, mechanism->slopes(free->N, false));
   free->eigen = general_eigen(free->A);
   return {};
 }
@@ -238,57 +95,11 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
   return not_found(*mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
 }
 
-std::vector<double> scaled(std::vector<double> rates) {
-  double largest = 0.0;
-  for (const double rate : rates)
-    if (std::abs(rate) > std::abs(largest) * (1.0 + 1e-9)) largest = rate;
-  for (double& rate : rates) rate = largest == 0.0 ? 0.0 : rate / largest;
-  return rates;
-}
-
-void describe_modes(const FreeMotions& free, double duration, RestingMechanism* mechanism,
-                    Observer* observer, Equilibrium* found) {
-  for (Eigen::Index k = 0; k < free.eigen.values.size(); ++k) {
-    const Eigen::VectorXd v = free.N * free.eigen.vectors.col(k).real();
-    found->modes.push_back({free.eigen.values[k], scaled(mechanism->joint_rates(v, observer))});
-  }
-  std::stable_sort(found->modes.begin(), found->modes.end(),
-                   [](const EquilibriumMode& one, const EquilibriumMode& other) {
-                     return one.growth() != other.growth() ? one.growth() > other.growth()
-                                                           : one.frequency() < other.frequency();
-                   });
-  for (const EquilibriumMode& mode : found->modes) {
-    const bool is_neutral = std::sqrt(std::abs(mode.square)) * duration < kNeutral;
-    if (!is_neutral && mode.growth() * duration > kNeutral)
-      found->stability = Stability::kUnstable;
-    else if (is_neutral && found->stability == Stability::kStable)
-      found->stability = Stability::kNeutral;
-  }
-}
-
 }  // namespace
-
-double EquilibriumMode::growth() const { return std::sqrt(square).real(); }
-double EquilibriumMode::frequency() const {
-  constexpr double kPi = 3.141592653589793;
-  return std::abs(std::sqrt(square).imag()) / (2.0 * kPi);
-}
-
-const char* name_of(Stability stability) {
-  switch (stability) {
-    case Stability::kStable:
-      return "stable";
-    case Stability::kUnstable:
-      return "unstable";
-    case Stability::kNeutral:
-      break;
-  }
-  return "neutral";
-}
 
 Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<double>& parameters,
                              const std::vector<SignalDescription>& signals,
-                             const std::atomic<bool>* cancel) {
+                             const std::atomic<bool>* cancel, const LinearQuestion& question) {
   if (system.study().postures > 0)
     throw InputError({{system.study().file, 1},
                       "positions",
@@ -301,11 +112,19 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   found.names = observer.names();
   found.status = mechanism.begin();
   if (!found.status.ok()) return found;
-  const double duration = system.study().duration, longest = duration / kNeutral;
+  const double longest = kLongest * system.study().duration;
   FreeMotions free;
   found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
+  // Without its integrals the mechanism may have no posture at rest.
+  if (mechanism.integrals().size() > 0 && found.status.code != StatusCode::kCancelled)
+    found.status =
+        rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
-  if (found.status.ok()) describe_modes(free, duration, &mechanism, &observer, &found);
+  if (!found.status.ok()) return found;
+  found.linear =
+      linear_model({&system, parameters, question, true, mechanism.integral_of_controllers()},
+                   mechanism.state(), mechanism.theta());
+  found.status = found.linear.status;
   return found;
 }
 

@@ -48,7 +48,7 @@ TEST(GravityBalance, ABalancedArmNeedsNoTorqueAndRestsAnywhere) {
                    {{"second_stiffness", kSecond}, {"height", kHeight}});
   const Equilibrium found = find_equilibrium(*system_of(left_alone), left_alone.parameters(), {});
   ASSERT_TRUE(found.status.ok()) << found.status.cause;
-  EXPECT_EQ(found.stability, Stability::kNeutral);
+  EXPECT_EQ(found.linear.stability, Stability::kNeutral);
   EXPECT_NEAR(found.frame.joints[0].position, 0.5, 1e-9);
 }
 

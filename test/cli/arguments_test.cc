@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "cli/arguments.h"
+#include "cli/command_help.h"
 
 namespace codesign::cli {
 namespace {
@@ -121,6 +122,18 @@ TEST(Arguments, VersionStandsAlone) {
   EXPECT_EQ(parse_arguments({"--version"}).command, "version");
   EXPECT_EQ(parse_arguments({"--version", "--help"}).command, "help");
   expect_usage_error({"check", "m", "--version"}, "unknown option \"--version\"");
+}
+
+TEST(Arguments, OfALinearization) {
+  const Arguments arguments = parse_arguments(
+      {"linearize", "m.urdf", "s.yaml", "--at", "0.5", "--friction=regularised", "--csv", "f.csv"});
+  EXPECT_EQ(arguments.time, 0.5);
+  EXPECT_EQ(arguments.friction, LinearFriction::kRegularised);
+  EXPECT_LT(parse_arguments({"linearize", "m", "s"}).time, 0.0);
+  expect_usage_error({"linearize", "m", "s", "--at", "-1"}, "--at must be a time of the run");
+  expect_usage_error({"linearize", "m", "s", "--friction", "on"},
+                     "--friction must be off or regularised, not \"on\"");
+  expect_usage_error({"simulate", "m", "s", "--at", "1"}, "takes no --at");
 }
 
 TEST(Usage, NamesEveryCommandAndOption) {

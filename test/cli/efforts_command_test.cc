@@ -122,10 +122,16 @@ TEST(EquilibriumCommand, PrintsThePostureAndItsStability) {
   const PendulumFiles files("duration: 10\ninitial_state: {hinge: {position: 1.5}}\n");
   const Outcome outcome = files.run("equilibrium", {"--signals", "hinge/reaction_force/z"});
   ASSERT_EQ(outcome.code, kDone) << outcome.err;
-  EXPECT_NE(outcome.out.find("\nstable\n"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("\nstable: slowest pole -0.25 1/s; damping and controllers counted, "
+                             "friction not\n"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(files.run("equilibrium", {"--friction", "regularised"}).out.find("friction counted\n"),
+            std::string::npos);
   EXPECT_NE(outcome.out.find("hinge/reaction_force/z  19.62\n"), std::string::npos) << outcome.out;
   const Json object = json_of(files.run("equilibrium", {"--json"}));
-  expect_keys(object, {"joints", "signals", "stability", "modes", "limits_exceeded", "steps"});
+  expect_keys(object,
+              {"joints", "signals", "stability", "verdict", "modes", "limits_exceeded", "steps"});
   EXPECT_NEAR(object["joints"]["hinge"]["position"].get<double>(), 0.0, 1e-10);
   EXPECT_EQ(object["modes"].size(), 1U);
 }

@@ -137,7 +137,11 @@ std::vector<Seed> language_seeds() {
     if (has_recordings) one.commands = {{"identify"}, {"identify", "--output", "out"}};
     if (one.name == "excitation") one.commands = {{"excite"}, {"excite", "--output", "out"}};
     if (one.name == "statics")
-      one.commands = {{"efforts"}, {"equilibrium"}, {"efforts", "--run", "heavy"}};
+      one.commands = {{"efforts"},
+                      {"equilibrium"},
+                      {"linearize"},
+                      {"linearize", "--at", "0.01"},
+                      {"efforts", "--run", "heavy"}};
   }
   return seeds;
 }

@@ -38,6 +38,7 @@ ROWS = [
     ["optimization"],
     ["identification"],
     ["excitation"],
+    ["linear"],
     ["statics"],
     ["jobs"],
     ["mpi"],

@@ -50,6 +50,80 @@ class Postures(unittest.TestCase):
             shipped("four_bar_path").adjoint()
 
 
+class Linearizations(unittest.TestCase):
+    def test_an_arm_under_computed_torque(self):
+        model = shipped("two_link_arm").linearize(signals=["elbow/position"])
+        self.assertEqual((model.A.shape, model.B.shape[0], model.C.shape), ((4, 4), 4, (1, 4)))
+        self.assertEqual(model.B.shape, (4, len(model.inputs)))
+        self.assertEqual((model.states[0], model.outputs, model.period), ("shoulder/position", ["elbow/position"], None))
+        np.testing.assert_allclose(np.sort(model.poles.real), np.sort(np.linalg.eigvals(model.A).real)[::2], rtol=1e-9)
+        frequencies, loop = model.response("elbow_servo")
+        margin = model.loops["elbow_servo"]["phase_margin"]
+        self.assertAlmostEqual(float(np.interp(margin["frequency"], frequencies, np.abs(loop))), 1.0, 3)
+        self.assertIn("stable", repr(model))
+
+    def test_a_sampled_axis_and_faults(self):
+        problem = shipped("feed_axis")
+        model = problem.linearize()
+        self.assertGreater(model.period, 0.0)
+        self.assertLess(np.abs(np.linalg.eigvals(model.A)).max(), 1.0)
+        with self.assertRaises(KeyError):
+            model.response("velocity_loop")
+        for wrong in ({"friction": "some"}, {"at": -1.0}, {"at": 1e9}, {"signals": ["axis/poise"]}):
+            with self.assertRaises(codesign.InputError):
+                problem.linearize(**wrong)
+        self.assertEqual(shipped("slider_crank").linearize(at=0.1).stability, "stable")
+        with self.assertRaises(codesign.ComputationError):
+            shipped("slider_crank").linearize()
+
+
+CART = """
+<robot name="cart">
+  <link name="rail"/><link name="cart"><inertial><mass value="1"/><inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/></inertial></link>
+  <joint name="slide" type="prismatic"><parent link="rail"/><child link="cart"/><axis xyz="1 0 0"/>
+    <limit lower="-1" upper="1" effort="9" velocity="9"/><dynamics damping="1"/></joint>
+</robot>"""
+SAMPLED = """
+duration: {duration}
+initial_state: {{slide: {{position: 0.3, velocity: 0.1}}}}
+controllers:
+{controllers}
+solver: {{relative_tolerance: 1.0e-12, absolute_tolerance: 1.0e-14}}
+"""
+
+
+class SampledLoops(unittest.TestCase):
+    """The positions of a run at the ends of periods follow the recurrence of the characteristic polynomial, whatever the hidden states are."""
+
+    def check(self, period, *controllers):
+        study = SAMPLED.format(duration=60 * period, controllers="\n".join(f"  {c}" for c in controllers))
+        problem = codesign.Problem(CART, study)
+        model = problem.linearize()
+        self.assertAlmostEqual(model.period, period, 12)
+        coefficients = np.poly(np.linalg.eigvals(model.A)).real[::-1]
+        run = problem.simulate(signals=["slide/position"], samples=61)["slide/position"]
+        count = len(coefficients)
+        left = [abs(coefficients @ run[k:k + count]) for k in range(10, 61 - count)]
+        self.assertLess(max(left), 1e-13, controllers)
+
+    def test_a_filter_and_an_integral(self):
+        self.check(0.05, "servo: {type: pid, input: slide/position, setpoint: 0, output: slide, "
+                   "gains: {p: 8, d: 3, i: 1}, sample_time: 0.05, derivative_filter: 0.03}")
+
+    def test_a_delay_that_is_no_multiple_and_a_lag(self):
+        self.check(0.05, "servo: {type: pid, input: slide/position, setpoint: 0, output: slide, "
+                   "gains: {p: 8, d: 3}, sample_time: 0.05, delay: 0.12, time_constant: 0.04}")
+
+    def test_a_cascade_of_two_sample_times_with_delays(self):
+        self.check(0.06, "outer: {type: pid, input: slide/position, setpoint: 0, gains: {p: 2}, sample_time: 0.03, delay: 0.07}",
+                   "inner: {type: pid, input: slide/velocity - outer/output, setpoint: 0, output: slide, "
+                   "gains: {p: 10, i: 5}, sample_time: 0.02, delay: 0.02}")
+
+    def test_a_continuous_loop_beside_a_sampled_one(self):
+        self.check(0.04, "a: {type: pid, input: slide/position, setpoint: 0, output: slide, gains: {p: 8, d: 3}, sample_time: 0.04}",
+                   "b: {type: state_feedback, output: slide, feedback: [{signal: slide/velocity, gain: 1}], time_constant: 0.02}")
+
+
 class Designs(unittest.TestCase):
     def test_rho_is_a_keyword_too(self):
         problem = pendulum()

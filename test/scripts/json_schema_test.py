@@ -91,6 +91,17 @@ class Outputs(unittest.TestCase):
             study.write_text("duration: 2.0\n")
             self.check("equilibrium", "urdf/governor.urdf", study)
 
+    def test_linearizations(self):
+        arm = self.check("linearize", *self.case("two_link_arm"), "--signals", "elbow/position")
+        self.assertEqual(arm["outputs"], ["elbow/position"])
+        self.assertEqual(len(arm["A"]), len(arm["states"]))
+        self.assertEqual(arm["stability"], "stable")
+        sampled = self.check("linearize", *self.case("feed_axis"))
+        self.assertGreater(sampled["period"], 0.0)
+        self.assertIn("why_not", sampled["loops"]["velocity_loop"])
+        self.check("linearize", *self.case("slider_crank"), "--at", "0.5")
+        self.check("linearize", *self.case("slider_crank"), "--at", "50", code=2, schema="error")
+
     def test_postures_and_measures(self):
         self.check("simulate", *self.case("four_bar_path"))
         self.check("optimize", *self.case("six_bar_dwell"))

@@ -25,8 +25,9 @@ std::string start_at(double hinge, const std::string& more = "") {
   return "duration: 10\ninitial_state: {hinge: {position: " + std::to_string(hinge) + "}}\n" + more;
 }
 
-// A pendulum of 2 kg with its centre 0.5 m below its hinge, and 0.1 kg m^2 about that centre.
-constexpr double kSquare = 2.0 * kGravity * 0.5 / (0.1 + 2.0 * 0.25);
+// A pendulum of 2 kg with its centre 0.5 m below its hinge, 0.1 kg m^2 about that centre, and a
+// damping of 0.3 N m s: theta'' + 2 kDecay theta' + kSquare theta = 0.
+constexpr double kSquare = 2.0 * kGravity * 0.5 / (0.1 + 2.0 * 0.25), kDecay = 0.25;
 
 // From level, where no small motion feels a change of its torque, and from a little beside the top.
 TEST(Equilibrium, APendulumComesToHang) {
@@ -34,11 +35,14 @@ TEST(Equilibrium, APendulumComesToHang) {
     const Equilibrium found = equilibrium_of(loaded(pendulum_urdf(), start_at(start)));
     ASSERT_TRUE(found.status.ok()) << found.status.cause;
     EXPECT_NEAR(position_of(found, "hinge"), 0.0, 1e-10);
-    EXPECT_EQ(found.stability, Stability::kStable);
-    ASSERT_EQ(found.modes.size(), 1U);
-    EXPECT_NEAR(found.modes[0].frequency(), std::sqrt(kSquare) / (2.0 * kPi), 1e-9);
-    EXPECT_EQ(found.modes[0].growth(), 0.0);
-    EXPECT_EQ(found.modes[0].rates, std::vector<double>{1.0});
+    EXPECT_EQ(found.linear.stability, Stability::kStable);
+    ASSERT_EQ(found.linear.modes.size(), 1U);
+    const Pole& pole = found.linear.modes[0].pole;
+    EXPECT_NEAR(pole.growth(), -kDecay, 1e-9);
+    EXPECT_NEAR(pole.frequency(), std::sqrt(kSquare - kDecay * kDecay) / (2.0 * kPi), 1e-9);
+    EXPECT_EQ(found.linear.verdict,
+              "stable: slowest pole -0.25 1/s; damping and controllers counted, friction not");
+    EXPECT_EQ(found.linear.modes[0].rates, std::vector<double>{1.0});
   }
 }
 
@@ -48,8 +52,9 @@ TEST(Equilibrium, APendulumAtItsTopIsUnstable) {
                                                   "3.141592653589793, velocity: 0.3}}\n"));
   ASSERT_TRUE(found.status.ok()) << found.status.cause;
   EXPECT_NEAR(position_of(found, "hinge"), kPi, 1e-12);
-  EXPECT_EQ(found.stability, Stability::kUnstable);
-  EXPECT_NEAR(found.modes[0].growth(), std::sqrt(kSquare), 1e-9);
+  EXPECT_EQ(found.linear.stability, Stability::kUnstable);
+  EXPECT_NEAR(found.linear.modes[0].pole.growth(), -kDecay + std::sqrt(kSquare + kDecay * kDecay),
+              1e-9);
 }
 
 // p (r - theta) = m g l sin(theta): a servo without an integral sags; delays, samples and lags do
@@ -68,8 +73,11 @@ TEST(Equilibrium, AServoSags) {
     const double angle = position_of(found, "hinge");
     EXPECT_GT(angle, 0.3);
     EXPECT_NEAR(20.0 * (0.7 - angle), 2.0 * kGravity * 0.5 * std::sin(angle), 1e-10) << more;
-    EXPECT_NEAR(found.modes[0].square.real(),
-                -(20.0 + 2.0 * kGravity * 0.5 * std::cos(angle)) / 0.6, 1e-8);
+    if (!more.empty()) continue;
+    // 0.6 theta'' + (1 + 0.3) theta' + (20 + m g l cos) theta = 0
+    const double stiffness = 20.0 + 2.0 * kGravity * 0.5 * std::cos(angle);
+    EXPECT_NEAR(found.linear.modes[0].pole.growth(), -1.3 / 1.2, 1e-9);
+    EXPECT_NEAR(std::norm(found.linear.modes[0].pole.value), stiffness / 0.6, 1e-8);
   }
 }
 
@@ -79,15 +87,16 @@ TEST(Equilibrium, ASpringBalancesAnArm) {
   const double balance = 2.0 * kGravity * 0.5 / (0.4 * 0.25);  // k = m g l/(a b)
   const Equilibrium weak = equilibrium_of(loaded(balanced_arm(2.0, 0.5 * balance), start_at(1.0)));
   EXPECT_NEAR(position_of(weak, "hinge"), kPi, 1e-9);
-  EXPECT_EQ(weak.stability, Stability::kStable);
+  EXPECT_EQ(weak.linear.stability, Stability::kStable);
   const Equilibrium strong =
       equilibrium_of(loaded(balanced_arm(2.0, 2.0 * balance), start_at(1.0)));
   EXPECT_NEAR(position_of(strong, "hinge"), 0.0, 1e-9);
-  EXPECT_NEAR(strong.modes[0].square.real(), -2.0 * kGravity * 0.5 / (0.01 + 2.0 * 0.25), 1e-8);
+  EXPECT_NEAR(-std::norm(strong.linear.modes[0].pole.value),
+              -2.0 * kGravity * 0.5 / (0.01 + 2.0 * 0.25), 1e-8);
   const Equilibrium even = equilibrium_of(loaded(balanced_arm(2.0, balance), start_at(1.0)));
   ASSERT_TRUE(even.status.ok()) << even.status.cause;
   EXPECT_NEAR(position_of(even, "hinge"), 1.0, 1e-9) << "it rests where it is put";
-  EXPECT_EQ(even.stability, Stability::kNeutral);
+  EXPECT_EQ(even.linear.stability, Stability::kNeutral);
 }
 
 // A spring in the guide of a slider-crank carries a load: F = k x, and the crank follows the loop.
@@ -110,8 +119,8 @@ TEST(Equilibrium, ClosesLoops) {
     EXPECT_NEAR(slider,
                 0.1 * std::cos(crank) + std::sqrt(0.09 - std::pow(0.1 * std::sin(crank), 2)),
                 1e-10);
-    ASSERT_EQ(found.modes.size(), 1U);
-    EXPECT_EQ(found.stability, Stability::kStable);
+    ASSERT_EQ(found.linear.modes.size(), 1U);
+    EXPECT_EQ(found.linear.stability, Stability::kStable);
   }
 }
 
@@ -134,10 +143,14 @@ TEST(Equilibrium, HangsABodyOnSprings) {
   // Springs of no free length pull as one to the mean of their ends.
   const Eigen::Vector3d expected(-0.05, 0.0, -0.125 - 2.0 * kGravity / 400.0);
   EXPECT_LT((found.frame.links[1].position - expected).norm(), 1e-9);
-  ASSERT_EQ(found.modes.size(), 6U);
-  EXPECT_EQ(found.stability, Stability::kNeutral) << "the body turns without a force";
-  for (int k = 3; k < 6; ++k)
-    EXPECT_NEAR(found.modes[static_cast<std::size_t>(k)].square.real(), -200.0, 1e-6);
+  EXPECT_EQ(found.linear.stability, Stability::kNeutral) << "the body turns without a force";
+  int swings = 0;
+  for (const LinearMode& mode : found.linear.modes) {
+    if (mode.pole.is_zero(found.linear.duration)) continue;
+    EXPECT_NEAR(std::norm(mode.pole.value), 200.0, 1e-6);
+    ++swings;
+  }
+  EXPECT_EQ(swings, 3);
 }
 
 // A stop is a stiff spring that begins to act at its edge.
@@ -150,7 +163,7 @@ TEST(Equilibrium, RestsOnAStop) {
   // com = -0.5 sin(theta) along x: the load turns the bar towards -pi/2, to the stop at -1.2.
   const double beyond = -1.2 - position_of(found, "hinge");
   EXPECT_NEAR(1e4 * (beyond - 0.5e-3), 20.0 * std::cos(-1.2 - beyond), 1e-6);
-  EXPECT_EQ(found.stability, Stability::kStable);
+  EXPECT_EQ(found.linear.stability, Stability::kStable);
 }
 
 TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
@@ -162,16 +175,58 @@ TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
       << found.status.cause;
 }
 
-TEST(Equilibrium, RefusesAnIntegral) {
-  const Problem problem =
-      loaded(pendulum_urdf(),
-             start_at(0.0,
-                      "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
-                      "setpoint: 0.7, gains: {p: 20, i: 1}}}\n"));
-  const std::string message = refused([&] { equilibrium_of(problem); });
-  EXPECT_NE(message.find("study.yaml:3: controllers.servo.gains.i: a controller with an integral"),
-            std::string::npos)
-      << message;
+// p e + i s + d e' with e = 0: the integral carries m g l sin(0.7).
+TEST(Equilibrium, AnIntegralLeavesNoError) {
+  for (const std::string more :
+       {"", ", i_clamp: 50", ", sample_time: 0.001", ", antiwindup: true, i_clamp: 50"}) {
+    const Problem problem =
+        loaded(pendulum_urdf(),
+               start_at(0.0,
+                        "controllers: {servo: {type: pid, input: hinge/position, output: hinge, "
+                        "setpoint: 0.7, gains: {p: 20, i: 4, d: 1}" +
+                            more + "}}\n"));
+    const Equilibrium found = equilibrium_of(problem);
+    ASSERT_TRUE(found.status.ok()) << found.status.cause;
+    EXPECT_NEAR(position_of(found, "hinge"), 0.7, 1e-9);
+    EXPECT_NEAR(found.frame.joints[0].effort, 2.0 * kGravity * 0.5 * std::sin(0.7), 1e-8);
+    EXPECT_EQ(found.linear.stability, Stability::kStable) << found.linear.verdict;
+    if (!more.empty()) continue;
+    // 0.6 s^3 + 1.3 s^2 + (20 + m g l cos) s + 4
+    for (const LinearMode& mode : found.linear.modes) {
+      const std::complex<double> s = mode.pole.value;
+      EXPECT_LT(std::abs(s * (s * (0.6 * s + 1.3) + 20.0 + kGravity * std::cos(0.7)) + 4.0), 1e-7);
+    }
+  }
+}
+
+// Above i < 1.3 (20 + m g l cos)/0.6 it is unstable, by Routh.
+TEST(Equilibrium, TooMuchOfAnIntegralIsUnstable) {
+  const double limit = 1.3 * (20.0 + kGravity * std::cos(0.7)) / 0.6;
+  for (const double factor : {0.999, 1.001}) {
+    const Equilibrium found = equilibrium_of(loaded(
+        pendulum_urdf(), start_at(0.0,
+                                  "controllers: {servo: {type: pid, input: hinge/position, output: "
+                                  "hinge, setpoint: 0.7, gains: {p: 20, d: 1, i: " +
+                                      std::to_string(factor * limit) + "}}}\n")));
+    EXPECT_EQ(found.linear.stability, factor < 1.0 ? Stability::kStable : Stability::kUnstable);
+  }
+}
+
+TEST(Equilibrium, AnIntegralMayNotSuffice) {
+  const Equilibrium found = equilibrium_of(loaded(
+      pendulum_urdf(),
+      start_at(0.0,
+               "controllers: {servo: {type: pid, input: hinge/position, output: "
+               "hinge, setpoint: 0.7, gains: {p: 20, i: 4}, i_clamp: 2, antiwindup: true}}\n")));
+  EXPECT_EQ(found.status.code, StatusCode::kNoEquilibrium);
+  EXPECT_NE(found.status.cause.find("i_clamp allows 2"), std::string::npos) << found.status.cause;
+  const Equilibrium moving = equilibrium_of(loaded(
+      pendulum_urdf(), start_at(0.0,
+                                "controllers: {servo: {type: pid, input: hinge/velocity, output: "
+                                "hinge, setpoint: 3, gains: {p: 20, i: 4}}}\n")));
+  EXPECT_EQ(moving.status.code, StatusCode::kNoEquilibrium);
+  EXPECT_NE(moving.status.cause.find("the largest error left is 3"), std::string::npos)
+      << moving.status.cause;
 }
 
 // A motion that is given rests where it starts; otherwise the bar would swing outwards.

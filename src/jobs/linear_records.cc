@@ -1,0 +1,73 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/linear_records.h"
+
+#include "math/arrays.h"
+
+namespace codesign {
+namespace {
+
+Json rows_of(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    Json numbers = Json::array();
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k) numbers.push_back(matrix(row, k));
+    rows.push_back(std::move(numbers));
+  }
+  return rows;
+}
+
+Json response_of(const ControllerLoop& loop) {
+  Json real = Json::array(), imaginary = Json::array();
+  for (const std::complex<double>& value : loop.response) {
+    real.push_back(value.real());
+    imaginary.push_back(value.imag());
+  }
+  return {{"frequency", loop.frequencies}, {"real", real}, {"imaginary", imaginary}};
+}
+
+}  // namespace
+
+void add_stability(const LinearModel& model, Json* object) {
+  (*object)["stability"] = name_of(model.stability);
+  (*object)["verdict"] = model.verdict;
+  if (model.system.period > 0.0) (*object)["period"] = model.system.period;
+  Json modes = Json::array();
+  for (const LinearMode& mode : model.modes) {
+    Json object_of_mode = Json::object();
+    visit_mode(mode, model.system.period,
+               [&](const char* name, double value) { object_of_mode[name] = value; });
+    object_of_mode["rates"] = by_name(model.joints, mode.rates);
+    modes.push_back(std::move(object_of_mode));
+  }
+  (*object)["modes"] = std::move(modes);
+}
+
+void add_matrices(const StateSpace& system, Json* object) {
+  (*object)["states"] = system.states;
+  (*object)["inputs"] = system.inputs;
+  (*object)["outputs"] = system.outputs;
+  (*object)["A"] = rows_of(system.A);
+  (*object)["B"] = rows_of(system.B);
+  (*object)["C"] = rows_of(system.C);
+  (*object)["D"] = rows_of(system.D);
+}
+
+Json loops_json(const LinearModel& model, bool with_response) {
+  Json loops = Json::object();
+  for (const ControllerLoop& loop : model.loops) {
+    Json entry = Json::object();
+    if (loop.why_not.empty())
+      visit_margins(loop.margins,
+                    [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
+                      if (margin)
+                        entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
+                    });
+    else
+      entry["why_not"] = loop.why_not;
+    if (with_response && loop.why_not.empty()) entry["response"] = response_of(loop);
+    loops[loop.controller] = std::move(entry);
+  }
+  return loops;
+}
+
+}  // namespace codesign

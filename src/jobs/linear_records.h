@@ -1,0 +1,18 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "jobs/json.h"
+#include "linear/linear_model.h"
+
+namespace codesign {
+
+/// Sets `stability`, `verdict`, `modes` and, if a controller is sampled, `period`.
+void add_stability(const LinearModel& model, Json* object);
+/// Sets `states`, `inputs`, `outputs`, `A`, `B`, `C`, `D` (lists of rows).
+void add_matrices(const StateSpace& system, Json* object);
+/// By controller: the margins of visit_margins() that there are, with their frequencies, or
+/// `why_not`.
+/// @param with_response whether L at all frequencies is added.
+Json loops_json(const LinearModel& model, bool with_response);
+
+}  // namespace codesign

@@ -1,0 +1,239 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "linear/loop_margins.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linear/poles.h"
+#include "math/arrays.h"
+#include "math/linear_systems.h"
+
+namespace codesign {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kHalfTurn = 3.141592653589793;  // [rad]
+constexpr int kPerDecade = 100;
+constexpr double kBeyond = 1e3;  // the slowest and the fastest pole
+constexpr int kBisections = 200;
+constexpr double kPole = 1e9;  // a value that rounding makes of infinity
+
+/// The frequencies of one pole and around it, where the response turns by half.
+void add_around(const Complex& pole, std::vector<double>* grid) {
+  constexpr int kSteps = 24;
+  const double width = std::abs(pole.real()), centre = std::abs(pole.imag());
+  if (std::abs(pole) == 0.0) return;
+  grid->push_back(std::abs(pole));
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    const double at = centre + width * std::sinh(0.2 * k);
+    if (at > 0.0) grid->push_back(at);
+  }
+}
+
+std::vector<double> grid_of(const std::vector<Pole>& closed, const std::vector<Pole>& open,
+                            double period) {
+  double slowest = 0.0, fastest = 0.0;
+  std::vector<double> grid;
+  for (const auto* poles : {&closed, &open})
+    for (const Pole& pole : *poles) {
+      const double size = std::abs(pole.value);
+      if (size <= 10.0 * pole.uncertainty) continue;
+      slowest = slowest == 0.0 ? size : std::min(slowest, size);
+      fastest = std::max(fastest, size);
+      add_around(pole.value, &grid);
+    }
+  if (fastest == 0.0) slowest = fastest = 1.0;
+  double last = kBeyond * fastest;
+  if (period > 0.0) last = kHalfTurn / period;
+  const double first = std::min(slowest / kBeyond, last / kBeyond);
+  const int count = static_cast<int>(kPerDecade * std::log10(last / first)) + 2;
+  for (int k = 0; k <= count; ++k)
+    grid.push_back(first * std::pow(last / first, static_cast<double>(k) / count));
+  grid.erase(
+      std::remove_if(grid.begin(), grid.end(), [&](double w) { return !(w >= first && w < last); }),
+      grid.end());
+  grid.push_back(last);
+  std::sort(grid.begin(), grid.end());
+  grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
+  return grid;
+}
+
+/// A zero of a function between two frequencies at which its signs differ.
+template <class Function>
+double zero_between(double low, double high, const Function& function) {
+  const bool rises = function(low) < 0.0;
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= low || middle >= high) break;
+    ((function(middle) < 0.0) == rises ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+/// The largest value near a point of the grid, by golden sections between its neighbours.
+template <class Function>
+AtFrequency peak_between(double low, double high, const Function& function) {
+  constexpr double kGolden = 0.6180339887498949;
+  constexpr int kSections = 80;
+  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+  double at_a = function(a), at_b = function(b);
+  for (int k = 0; k < kSections; ++k) {
+    if (at_a > at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      at_a = function(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      at_b = function(b);
+    }
+  }
+  return at_a > at_b ? AtFrequency{at_a, a} : AtFrequency{at_b, b};
+}
+
+template <class Function>
+AtFrequency largest(const std::vector<double>& grid, const Function& function) {
+  std::vector<double> values;
+  values.reserve(grid.size());
+  for (const double w : grid) values.push_back(function(w));
+  AtFrequency best{values.front(), grid.front()};
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (values[k] > best.value) best = {values[k], grid[k]};
+    if (k == 0 || k + 1 == grid.size() || values[k] < values[k - 1] || values[k] < values[k + 1])
+      continue;
+    const AtFrequency peak = peak_between(grid[k - 1], grid[k + 1], function);
+    if (peak.value > best.value) best = peak;
+  }
+  return best;
+}
+
+void take_smaller(double value, double frequency, std::optional<AtFrequency>* best) {
+  if (!*best || value < (*best)->value) *best = AtFrequency{value, frequency};
+}
+
+/// Takes a crossing of the negative real axis, but not one through infinity, at a pole.
+void take_gain(const Complex& L, double frequency, LoopMargins* margins) {
+  if (!(L.real() < 0.0 && L.real() > -kPole)) return;
+  const double factor = -1.0 / L.real();
+  if (factor >= 1.0)
+    take_smaller(factor, frequency, &margins->gain_margin);
+  else if (!margins->gain_reduction || factor > margins->gain_reduction->value)
+    margins->gain_reduction = AtFrequency{factor, frequency};
+}
+
+/// Takes a crossing of the unit circle.
+void take_phase(const Complex& L, double frequency, LoopMargins* margins) {
+  const double beyond = std::arg(-L);  // from -1, in (-pi, pi]
+  if (!margins->phase_margin || std::abs(beyond) < std::abs(margins->phase_margin->value))
+    margins->phase_margin = AtFrequency{beyond, frequency};
+  const double lag = beyond >= 0.0 ? beyond : beyond + 2.0 * kHalfTurn;
+  take_smaller(lag / frequency, frequency, &margins->delay_margin);
+}
+
+}  // namespace
+
+struct OpenLoop::Functions {
+  TransferFunction closed, open;
+};
+
+// With w = u - y the closed loop x' = A x + B w, y = C x + D w becomes the open one from u to y.
+OpenLoop::OpenLoop(const StateSpace& closed) : period_(closed.period), open_(closed) {
+  const double d = closed.D(0, 0), per = 1.0 / (1.0 + d);
+  open_.A -= per * closed.B * closed.C;
+  open_.B *= per;
+  open_.C *= per;
+  open_.D *= per;
+  functions_ = std::make_unique<Functions>(
+      Functions{TransferFunction(closed.A, closed.B, closed.C, d),
+                TransferFunction(open_.A, open_.B, open_.C, open_.D(0, 0))});
+  is_stable_ = is_stable_with(1.0);
+  grid_ = grid_of(poles_of(closed), poles_of(open_), period_);
+}
+
+OpenLoop::~OpenLoop() = default;
+OpenLoop::OpenLoop(OpenLoop&&) noexcept = default;
+
+Complex OpenLoop::at(double frequency) const {
+  if (period_ > 0.0) return -functions_->open.at(std::polar(1.0, frequency * period_));
+  return -functions_->open.at(Complex(0.0, frequency));
+}
+
+// u = factor y in place of u = y.
+bool OpenLoop::is_stable_with(double factor) const {
+  StateSpace closed = open_;
+  closed.A += factor / (1.0 - factor * open_.D(0, 0)) * open_.B * open_.C;
+  const std::vector<Pole> poles = poles_of(closed);
+  return std::none_of(poles.begin(), poles.end(),
+                      [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
+}
+
+Complex OpenLoop::closed_at(double frequency) const {
+  if (period_ > 0.0) return functions_->closed.at(std::polar(1.0, frequency * period_));
+  return functions_->closed.at(Complex(0.0, frequency));
+}
+
+// L is real at w = 0 and, sampled, at the end of the grid, pi/period: crossings, too. Near that end
+// its imaginary part is rounding.
+void OpenLoop::find_crossings(LoopMargins* margins) const {
+  std::vector<Complex> L;
+  L.reserve(grid_.size());
+  for (const double w : grid_) L.push_back(at(w));
+  take_gain(at(0.0).real(), 0.0, margins);
+  if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), margins);
+  for (std::size_t k = 0; k + 1 < grid_.size(); ++k) {
+    const bool is_end = period_ > 0.0 && k + 2 == grid_.size();
+    if (!is_end && (L[k].imag() < 0.0) != (L[k + 1].imag() < 0.0) &&
+        (L[k].real() < 0.0 || L[k + 1].real() < 0.0)) {
+      const double w =
+          zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return at(at_w).imag(); });
+      take_gain(at(w), w, margins);
+    }
+    if ((std::abs(L[k]) < 1.0) == (std::abs(L[k + 1]) < 1.0)) continue;
+    const double w =
+        zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return std::abs(at(at_w)) - 1.0; });
+    take_phase(at(w), w, margins);
+  }
+}
+
+// At infinite frequency L is its direct part.
+void OpenLoop::find_peaks(LoopMargins* margins) const {
+  const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
+  margins->sensitivity = largest(grid_, [&](double w) { return std::abs(1.0 + closed_at(w)); });
+  margins->complementary = largest(grid_, complementary);
+  const double far = functions_->closed.at_infinity();
+  if (period_ == 0.0 && std::abs(1.0 + far) > margins->sensitivity->value)
+    margins->sensitivity = AtFrequency{std::abs(1.0 + far), grid_.back()};
+  const double level = std::sqrt(0.5) * complementary(0.0);
+  if (!std::isfinite(level) || level == 0.0) return;
+  for (std::size_t k = 0; k < grid_.size(); ++k) {
+    if (complementary(grid_[k]) >= level) continue;
+    const double w = zero_between(k == 0 ? 0.0 : grid_[k - 1], grid_[k],
+                                  [&](double at_w) { return complementary(at_w) - level; });
+    margins->bandwidth = AtFrequency{w, w};
+    return;
+  }
+}
+
+LoopMargins OpenLoop::margins() const {
+  constexpr double kBelow = 0.999;  // a crossing
+  LoopMargins margins;
+  margins.is_stable = is_stable_;
+  find_crossings(&margins);
+  if (is_stable_) {
+    if (margins.phase_margin) margins.phase_margin->value = std::abs(margins.phase_margin->value);
+    find_peaks(&margins);
+    return margins;
+  }
+  LoopMargins unstable;
+  unstable.is_stable = false;
+  if (margins.gain_reduction && is_stable_with(kBelow * margins.gain_reduction->value))
+    unstable.gain_reduction = margins.gain_reduction;
+  return unstable;
+}
+
+}  // namespace codesign

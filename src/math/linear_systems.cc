@@ -1,0 +1,152 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "math/linear_systems.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace codesign {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Parlett and Reinsch: makes the norms of row k and column k alike, by powers of two, which round
+/// nothing. @returns the diagonal of the similarity.
+Eigen::VectorXd balance(MatrixXd* A) {
+  constexpr int kMostSweeps = 100;
+  constexpr double kGain = 0.95;
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(A->rows());
+  bool goes_on = true;
+  for (int sweep = 0; goes_on && sweep < kMostSweeps; ++sweep) {
+    goes_on = false;
+    for (Index k = 0; k < A->rows(); ++k) {
+      const double own = std::abs((*A)(k, k));
+      const double column = A->col(k).cwiseAbs().sum() - own;
+      const double row = A->row(k).cwiseAbs().sum() - own;
+      if (!(column > 0.0 && row > 0.0 && std::isfinite(column + row))) continue;
+      const double factor = std::exp2(std::round(0.5 * std::log2(row / column)));
+      if (column * factor + row / factor >= kGain * (column + row)) continue;
+      goes_on = true;
+      scale[k] *= factor;
+      A->col(k) *= factor;
+      A->row(k) /= factor;
+    }
+  }
+  return scale;
+}
+
+/// The same matrix with entries changed as rounding changes them; always the same changes.
+MatrixXd rounded(const MatrixXd& A) {
+  constexpr double kOfRow = 1e-13, kOfAll = 1e-16;
+  std::mt19937 generator(1);
+  MatrixXd changed = A;
+  const double largest = A.cwiseAbs().maxCoeff();
+  for (Index row = 0; row < A.rows(); ++row) {
+    const double size = kOfRow * A.row(row).cwiseAbs().maxCoeff() + kOfAll * largest;
+    for (Index k = 0; k < A.cols(); ++k) changed(row, k) += generator() % 2 == 0 ? size : -size;
+  }
+  return changed;
+}
+
+}  // namespace
+
+SystemEigen system_eigen(const MatrixXd& A) {
+  if (A.rows() == 0) return {};
+  constexpr double kSafety = 10.0;
+  MatrixXd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::EigenSolver<MatrixXd> solver(balanced);
+  SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}};
+  const Eigen::VectorXcd moved =
+      Eigen::EigenSolver<MatrixXd>(rounded(balanced), false).eigenvalues();
+  eigen.uncertainty.resize(A.rows());
+  for (Index k = 0; k < A.rows(); ++k)
+    eigen.uncertainty[k] = kSafety * (moved.array() - eigen.values[k]).abs().minCoeff() +
+                           1e-15 * std::abs(eigen.values[k]);
+  return eigen;
+}
+
+MatrixXd matrix_exponential(const MatrixXd& A) {
+  static constexpr std::array<double, 14> kPade{64764752532480000.,
+                                                32382376266240000.,
+                                                7771770303897600.,
+                                                1187353796428800.,
+                                                129060195264000.,
+                                                10559470521600.,
+                                                670442572800.,
+                                                33522128640.,
+                                                1323241920.,
+                                                40840800.,
+                                                960960.,
+                                                16380.,
+                                                182.,
+                                                1.};
+  constexpr double kLargest = 5.371920351148152;  // of the norm, for an error below rounding
+  const Index n = A.rows();
+  if (n == 0) return A;
+  MatrixXd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  const double norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
+  const int squarings =
+      norm > kLargest ? static_cast<int>(std::ceil(std::log2(norm / kLargest))) : 0;
+  const MatrixXd X = balanced * std::exp2(-squarings), I = MatrixXd::Identity(n, n);
+  const MatrixXd X2 = X * X, X4 = X2 * X2, X6 = X4 * X2;
+  const auto& b = kPade;
+  const MatrixXd U = X * (X6 * (b[13] * X6 + b[11] * X4 + b[9] * X2) + b[7] * X6 + b[5] * X4 +
+                          b[3] * X2 + b[1] * I);
+  const MatrixXd V =
+      X6 * (b[12] * X6 + b[10] * X4 + b[8] * X2) + b[6] * X6 + b[4] * X4 + b[2] * X2 + b[0] * I;
+  MatrixXd result = (V - U).partialPivLu().solve(V + U);
+  for (int k = 0; k < squarings; ++k) result = (result * result).eval();
+  return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
+}
+
+TransferFunction::TransferFunction(const MatrixXd& A, const Eigen::VectorXd& b,
+                                   const Eigen::RowVectorXd& c, double d)
+    : H_(A), b_(b), c_(c), d_(d) {
+  if (A.rows() == 0) return;
+  MatrixXd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  b_ = scale.cwiseInverse().asDiagonal() * b;
+  c_ = c * scale.asDiagonal();
+  H_ = balanced;
+  if (A.rows() < 3) return;
+  const Eigen::HessenbergDecomposition<MatrixXd> hessenberg(balanced);
+  const MatrixXd Q = hessenberg.matrixQ();
+  H_ = hessenberg.matrixH();
+  b_ = Q.transpose() * b_;
+  c_ = c_ * Q;
+}
+
+// Gaussian elimination of s I - H; only neighbouring rows are exchanged.
+std::complex<double> TransferFunction::at(std::complex<double> s) const {
+  const Index n = H_.rows();
+  if (n == 0) return d_;
+  Eigen::MatrixXcd M = -H_.cast<std::complex<double>>();
+  M.diagonal().array() += s;
+  Eigen::VectorXcd x = b_.cast<std::complex<double>>();
+  for (Index k = 0; k + 1 < n; ++k) {
+    if (std::abs(M(k + 1, k)) > std::abs(M(k, k))) {
+      M.row(k).tail(n - k).swap(M.row(k + 1).tail(n - k));
+      std::swap(x[k], x[k + 1]);
+    }
+    if (M(k + 1, k) == 0.0) continue;
+    const std::complex<double> factor = M(k + 1, k) / M(k, k);
+    for (Index column = k; column < n; ++column) M(k + 1, column) -= factor * M(k, column);
+    x[k + 1] -= factor * x[k];
+  }
+  std::complex<double> result = d_;
+  for (Index k = n - 1; k >= 0; --k) {
+    for (Index column = k + 1; column < n; ++column) x[k] -= M(k, column) * x[column];
+    x[k] /= M(k, k);
+    result += c_[k] * x[k];
+  }
+  return result;
+}
+
+}  // namespace codesign

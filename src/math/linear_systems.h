@@ -1,0 +1,44 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+namespace codesign {
+
+// Matrices of linear systems x' = A x + B u, y = C x + D u. As in math/dense.h the templates of
+// Eigen are compiled once, in linear_systems.cc; all functions allocate.
+
+/// Eigenvalues and right eigenvectors (columns) of a square matrix.
+struct SystemEigen {
+  Eigen::VectorXcd values;
+  Eigen::MatrixXcd vectors;
+  /// How far each eigenvalue moves when every row of the balanced matrix changes by the rounding
+  /// of its largest entry: far for double ones, which a small change splits.
+  Eigen::VectorXd uncertainty;
+};
+/// By QR after balancing: a diagonal similarity by powers of two makes row and column norms alike,
+/// so that states of different units do not spoil each other.
+SystemEigen system_eigen(const Eigen::MatrixXd& A);
+
+/// exp(A), by Pade's approximation of order 13 with scaling and squaring (Higham 2005).
+Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& A);
+
+/// The transfer function c (s I - A)^-1 b + d of one input and one output. A value takes n^2
+/// operations, by Hessenberg's form.
+class TransferFunction {
+ public:
+  TransferFunction(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::RowVectorXd& c,
+                   double d);
+  /// The value at s; not finite at a pole.
+  std::complex<double> at(std::complex<double> s) const;
+  double at_infinity() const { return d_; }
+
+ private:
+  Eigen::MatrixXd H_;
+  Eigen::VectorXd b_;
+  Eigen::RowVectorXd c_;
+  double d_;
+};
+
+}  // namespace codesign
