@@ -156,6 +156,7 @@ void set_ensemble(const OptimizationResult& result, mechanism_codesign::Optimize
 std::vector<mechanism_codesign::WatchedSignal> watched_messages(
     const std::vector<WatchedResult>& watched, bool is_ensemble) {
   std::vector<mechanism_codesign::WatchedSignal> messages;
+  messages.reserve(watched.size());
   for (const WatchedResult& one : watched) messages.push_back(to_message(one, is_ensemble));
   return messages;
 }
