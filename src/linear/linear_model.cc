@@ -41,13 +41,16 @@ Study bare_study(const LinearCase& of) {
   return study;
 }
 
-std::vector<double> scaled(const Eigen::VectorXcd& rates) {
+/// Shares of the joints in a motion, the largest one 1; zero where they are rounding beside `size`.
+std::vector<double> scaled(const Eigen::VectorXcd& rates, double size) {
+  constexpr double kRounding = 1e-12;
   std::complex<double> most = 0.0;
   for (Eigen::Index k = 0; k < rates.size(); ++k)
     if (std::abs(rates[k]) > std::abs(most) * (1.0 + 1e-9)) most = rates[k];
   std::vector<double> result;
+  result.reserve(to_index(rates.size()));
   for (Eigen::Index k = 0; k < rates.size(); ++k)
-    result.push_back(most == 0.0 ? 0.0 : (rates[k] / most).real());
+    result.push_back(std::abs(most) <= kRounding * size ? 0.0 : (rates[k] / most).real());
   return result;
 }
 
@@ -135,9 +138,10 @@ class ModelWriter {
     const Eigen::MatrixXd rates = joint_rates(theta, &model->joints);
     const Eigen::Index f = motion_.motions() / 2;
     const std::vector<Pole> poles = poles_of(closed_);
+    // y' = p y, but of a pole at zero, where y alone is left.
     for (const Pole& pole : poles)
-      model->modes.push_back(
-          {pole, scaled(rates.cast<std::complex<double>>() * pole.vector.segment(f, f))});
+      model->modes.push_back({pole, scaled(rates.cast<std::complex<double>>() * pole.vector.head(f),
+                                           pole.vector.norm())});
     model->stability = judge(poles, model->duration);
     model->verdict = std::string(name_of(model->stability)) + ": " +
                      decisive_text(poles, model->stability, closed_.period) + "; " + counted();

@@ -15,7 +15,8 @@ using Complex = std::complex<double>;
 
 constexpr double kHalfTurn = 3.141592653589793;  // [rad]
 constexpr int kPerDecade = 100;
-constexpr double kBeyond = 1e3;  // the slowest and the fastest pole
+constexpr double kBesideRest = 1e-3;  // of the lowest frequency
+constexpr double kBeyond = 1e3;       // the slowest and the fastest pole
 constexpr int kBisections = 200;
 constexpr double kPole = 1e9;  // a value that rounding makes of infinity
 
@@ -208,7 +209,10 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   const double far = functions_->closed.at_infinity();
   if (period_ == 0.0 && std::abs(1.0 + far) > margins->sensitivity->value)
     margins->sensitivity = AtFrequency{std::abs(1.0 + far), grid_.back()};
-  const double level = std::sqrt(0.5) * complementary(0.0);
+  // A motion that the loop does not see, such as the position of a speed loop, is a pole at w = 0.
+  const double still = complementary(0.0);
+  const double level =
+      std::sqrt(0.5) * (std::isfinite(still) ? still : complementary(kBesideRest * grid_.front()));
   if (!std::isfinite(level) || level == 0.0) return;
   for (std::size_t k = 0; k < grid_.size(); ++k) {
     if (complementary(grid_[k]) >= level) continue;

@@ -37,6 +37,8 @@ TEST(Linearize, ASampledSpeed) {
   };
   const LinearModel model = sampled("");
   EXPECT_NEAR(model.loops.at(0).margins.gain_margin->value, 10.0, 1e-9);
+  // |0.2/(z - 0.8)|^2 = 1/2, whatever the position does
+  EXPECT_NEAR(model.loops.at(0).margins.bandwidth->value, std::acos(0.975) / 0.1, 1e-7);
   const LinearModel late = sampled(", delay: 0.1");
   EXPECT_NEAR(late.loops.at(0).margins.gain_margin->value, 5.0, 1e-9);
   std::vector<double> radii;
