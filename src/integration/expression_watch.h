@@ -25,7 +25,9 @@ class ExpressionWatch {
   /// To be called at the beginning of a run. @param equations of the steps, with the design.
   void start(const State<double>& initial, Equations<double>* equations);
   /// The error of the last attempt that its own estimate does not see, in units of the tolerance;
-  /// 0 without expressions of signals.
+  /// 0 without expressions of signals and given motions. A motion that is given is followed exactly
+  /// by steps of any length, and what it needs, z, is in no error test: the dense output of z is
+  /// compared with G(z) = 0 in the middle of the step.
   /// @param assembly solves for rates at points of the step.
   double error(const SolverOptions& options, OneStep<double>* step, Assembly* assembly);
 
@@ -36,6 +38,7 @@ class ExpressionWatch {
   /// False if the number of expressions changes on the way.
   bool evaluate(OneStep<double>* step);
   double simpson(Eigen::Index expression) const;
+  double rates_error(OneStep<double>* step, Assembly* assembly);
   double largest_effect(Eigen::Index expression, double missed, const SolverOptions& options,
                         OneStep<double>* step, Assembly* assembly);
 

@@ -171,7 +171,7 @@ bool ModeWatch::is_resolved() const {
       if (change * before < 0.0) ++turns;
       before = change;
     }
-    if (8 * turns > points_) return false;
+    if (turns > 1 && 8 * turns > points_) return false;
   }
   return true;
 }
