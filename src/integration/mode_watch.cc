@@ -9,6 +9,7 @@
 #include "equations/equation_variant.h"
 #include "integration/event_names.h"
 #include "integration/step_control.h"
+#include "integration/step_points.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -160,7 +161,6 @@ void ModeWatch::sample_at(int points, OneStep<double>* step) {
   }
 }
 
-// A guard that turns round at every eighth point may do so more often between them.
 bool ModeWatch::is_resolved() const {
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k) {
     int turns = 0;
@@ -171,18 +171,18 @@ bool ModeWatch::is_resolved() const {
       if (change * before < 0.0) ++turns;
       before = change;
     }
-    if (turns > 1 && 8 * turns > points_) return false;
+    if (!show_turns(points_, turns)) return false;
   }
   return true;
 }
 
 bool ModeWatch::sample(OneStep<double>* step) {
-  const double share = step->step_size() / system_.study().duration;
-  int points = std::max(kLeastPoints, static_cast<int>(std::min(1.0, share) * kPointsPerStudy));
+  int points =
+      step_parts(step->step_size() / system_.study().duration, kLeastPoints, kPointsPerStudy);
   sample_at(points, step);
   while (!is_resolved()) {
     points *= 2;
-    if (points > kMostPoints) return false;
+    if (points > kMostStepParts) return false;
     sample_at(points, step);
   }
   return true;

@@ -104,10 +104,9 @@ class ModeWatch {
   /// A guard is only touched where its rate is at most this share of its range over the attempt
   /// per second: as sharp as its sign is known within kRounding.
   static constexpr double kGrazing = 1e-4;
-  /// Points of a step at which guards are evaluated, after its start: at least so many, and so many
-  /// in the duration of the study; more where a guard turns round more often than they show, at
-  /// most kMostPoints.
-  static constexpr int kLeastPoints = 5, kPointsPerStudy = 1024, kMostPoints = 8192;
+  /// Points at which guards are evaluated after the start of a step: at least so many, and so many
+  /// in the duration of the study; more where show_turns() asks for them.
+  static constexpr int kLeastPoints = 5, kPointsPerStudy = 1024;
 
   struct Crossing {
     int guard = -1;

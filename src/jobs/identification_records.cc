@@ -55,15 +55,6 @@ Json number_json(const IdentifiedNumber& number) {
   return object;
 }
 
-Json rows_json(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    rows.push_back(Json::array());
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
-  }
-  return rows;
-}
-
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
   const Eigen::VectorXd deviations = covariance.diagonal().cwiseSqrt();
   return covariance.cwiseQuotient(deviations * deviations.transpose());

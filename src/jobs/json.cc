@@ -17,6 +17,15 @@ Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& value
   return by_name(names, std::vector<double>(values.data(), values.data() + values.size()));
 }
 
+Json rows_json(const Eigen::MatrixXd& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    rows.push_back(Json::array());
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) rows.back().push_back(matrix(i, j));
+  }
+  return rows;
+}
+
 Json parameters_json(const Problem& problem, const std::vector<double>& values) {
   std::vector<std::string> names;
   for (const Parameter& parameter : study_of(problem).parameters) names.push_back(parameter.name);

@@ -20,6 +20,9 @@ using Json = nlohmann::ordered_json;
 Json by_name(const std::vector<std::string>& names, const std::vector<double>& values);
 Json by_name(const std::vector<std::string>& names, const Eigen::VectorXd& values);
 
+/// The rows of a matrix, each a list of numbers.
+Json rows_json(const Eigen::MatrixXd& matrix);
+
 /// An object with the value of every named parameter. @param values order of
 /// Problem::all_parameters().
 Json parameters_json(const Problem& problem, const std::vector<double>& values);

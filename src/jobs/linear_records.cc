@@ -1,20 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/linear_records.h"
 
-#include "math/arrays.h"
-
 namespace codesign {
 namespace {
-
-Json rows_of(const Eigen::MatrixXd& matrix) {
-  Json rows = Json::array();
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-    Json numbers = Json::array();
-    for (Eigen::Index k = 0; k < matrix.cols(); ++k) numbers.push_back(matrix(row, k));
-    rows.push_back(std::move(numbers));
-  }
-  return rows;
-}
 
 Json response_of(const ControllerLoop& loop) {
   Json real = Json::array(), imaginary = Json::array();
@@ -46,10 +34,10 @@ void add_matrices(const StateSpace& system, Json* object) {
   (*object)["states"] = system.states;
   (*object)["inputs"] = system.inputs;
   (*object)["outputs"] = system.outputs;
-  (*object)["A"] = rows_of(system.A);
-  (*object)["B"] = rows_of(system.B);
-  (*object)["C"] = rows_of(system.C);
-  (*object)["D"] = rows_of(system.D);
+  (*object)["A"] = rows_json(system.A);
+  (*object)["B"] = rows_json(system.B);
+  (*object)["C"] = rows_json(system.C);
+  (*object)["D"] = rows_json(system.D);
 }
 
 Json loops_json(const LinearModel& model, bool with_response) {

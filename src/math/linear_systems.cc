@@ -2,12 +2,11 @@
 #include "math/linear_systems.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
+#include <unsupported/Eigen/MatrixFunctions>
 
 namespace codesign {
 namespace {
@@ -72,37 +71,9 @@ SystemEigen system_eigen(const MatrixXd& A) {
 }
 
 MatrixXd matrix_exponential(const MatrixXd& A) {
-  static constexpr std::array<double, 14> kPade{64764752532480000.,
-                                                32382376266240000.,
-                                                7771770303897600.,
-                                                1187353796428800.,
-                                                129060195264000.,
-                                                10559470521600.,
-                                                670442572800.,
-                                                33522128640.,
-                                                1323241920.,
-                                                40840800.,
-                                                960960.,
-                                                16380.,
-                                                182.,
-                                                1.};
-  constexpr double kLargest = 5.371920351148152;  // of the norm, for an error below rounding
-  const Index n = A.rows();
-  if (n == 0) return A;
   MatrixXd balanced = A;
   const Eigen::VectorXd scale = balance(&balanced);
-  const double norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
-  const int squarings =
-      norm > kLargest ? static_cast<int>(std::ceil(std::log2(norm / kLargest))) : 0;
-  const MatrixXd X = balanced * std::exp2(-squarings), I = MatrixXd::Identity(n, n);
-  const MatrixXd X2 = X * X, X4 = X2 * X2, X6 = X4 * X2;
-  const auto& b = kPade;
-  const MatrixXd U = X * (X6 * (b[13] * X6 + b[11] * X4 + b[9] * X2) + b[7] * X6 + b[5] * X4 +
-                          b[3] * X2 + b[1] * I);
-  const MatrixXd V =
-      X6 * (b[12] * X6 + b[10] * X4 + b[8] * X2) + b[6] * X6 + b[4] * X4 + b[2] * X2 + b[0] * I;
-  MatrixXd result = (V - U).partialPivLu().solve(V + U);
-  for (int k = 0; k < squarings; ++k) result = (result * result).eval();
+  const MatrixXd result = balanced.exp();
   return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
 }
 

@@ -21,7 +21,8 @@ struct SystemEigen {
 /// so that states of different units do not spoil each other.
 SystemEigen system_eigen(const Eigen::MatrixXd& A);
 
-/// exp(A), by Pade's approximation of order 13 with scaling and squaring (Higham 2005).
+/// exp(A), after the same balancing by Eigen: Pade's approximation with scaling and squaring
+/// (Higham 2005).
 Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& A);
 
 /// The transfer function c (s I - A)^-1 b + d of one input and one output. A value takes n^2

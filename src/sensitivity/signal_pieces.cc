@@ -3,14 +3,15 @@
 #include <cmath>
 
 #include "equations/compiled_system.h"
+#include "integration/step_points.h"
 #include "sensitivity/signal_watch.h"
 
 namespace codesign {
 namespace {
 
 // Pieces of a step, at whose ends slopes are computed: at least so many, and so many in the
-// duration of the study; more where the signal turns round more often than they show.
-constexpr int kLeastPieces = 4, kPiecesPerStudy = 512, kMostPieces = 8192;
+// duration of the study; more where show_turns() asks for them.
+constexpr int kLeastPieces = 4, kPiecesPerStudy = 512;
 
 /// How often a signal turns round, but for what is tiny beside it: a bound that holds it makes it
 /// constant within the tolerances.
@@ -33,13 +34,13 @@ int turns_of(const Samples& samples) {
 
 /// Sets points_ to the ends of the pieces between `begin` and `end` and to the instants there, and
 /// samples_ to `begin` and to them, taken inside of the step.
-void SignalWatch::take_pieces(std::size_t k, const Piece& step, double begin, double end) {
+void SignalWatch::take_pieces(std::size_t k, const StepSpan& step, double begin, double end) {
   const std::vector<double>& instants = layout_.entries()[k].instants;
-  const double share = (step.to - step.from) / system_.study().duration;
   const auto inside = [&](double time) {
     return std::min(std::max(time, step.from + step.slack), step.to - step.slack);
   };
-  int pieces = std::max(kLeastPieces, static_cast<int>(std::min(1.0, share) * kPiecesPerStudy));
+  int pieces =
+      step_parts((step.to - step.from) / system_.study().duration, kLeastPieces, kPiecesPerStudy);
   for (bool is_resolved = false; !is_resolved && status_.ok(); pieces *= 2) {
     points_.clear();
     for (int piece = 1; piece < pieces; ++piece)
@@ -54,9 +55,7 @@ void SignalWatch::take_pieces(std::size_t k, const Piece& step, double begin, do
     std::sort(points_.begin(), points_.end());
     samples_.assign(1, sample(k, inside(begin)));
     for (const double point : points_) samples_.push_back(sample(k, inside(point)));
-    // A signal that turns round in every eighth piece may do so more often in one.
-    const int turns = turns_of(samples_);
-    is_resolved = turns < 2 || 8 * turns <= pieces || 2 * pieces > kMostPieces;
+    is_resolved = show_turns(pieces, turns_of(samples_)) || 2 * pieces > kMostStepParts;
   }
 }
 

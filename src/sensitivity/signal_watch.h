@@ -92,10 +92,10 @@ class SignalWatch {
   double value(std::size_t k, double time);
   Sample sample(std::size_t k, double time);
   /// The last step [s]. Slopes are taken by `slack` inside of it.
-  struct Piece {
+  struct StepSpan {
     double from, to, slack;
   };
-  void take_pieces(std::size_t k, const Piece& step, double begin, double end);
+  void take_pieces(std::size_t k, const StepSpan& step, double begin, double end);
   void follow(std::size_t k, double from, double to);
   void search(std::size_t k, const Sample& from, const Sample& to);
   void pass_gap(std::size_t k, const Sample& to);

@@ -34,6 +34,15 @@ inline std::string stretched_bars() {
       "<successor link='ground'><origin xyz='0 0 -2.9'/></successor><axis xyz='0 1 0'/></loop>");
 }
 
+/// Of the triangle, whose loop has this row not enforced.
+inline ReactionSharing without_row(int row) {
+  ReactionSharing sharing;
+  sharing.compliance = 1e-9;
+  sharing.pairs = {2};
+  sharing.dropped = {{2, -1, row}};
+  return sharing;
+}
+
 /// A mechanism at its study's design, whose loops are not closed yet.
 struct LoopsToClose {
   Compiled compiled;

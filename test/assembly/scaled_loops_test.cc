@@ -9,11 +9,7 @@ namespace codesign {
 namespace {
 
 TEST(ScaledLoops, RowsThatAreNotEnforcedAreZero) {
-  ReactionSharing sharing;
-  sharing.compliance = 1e-9;
-  sharing.pairs = {2};
-  sharing.dropped = {{2, -1, 0}};
-  LoopsToClose c(triangle(), "{}", sharing);
+  LoopsToClose c(triangle(), "{}", without_row(0));
   const Posture posture = c.at({-0.5, 0.5});
   ScaledLoops all, enforced;
   all.evaluate(c.loops, c.design, posture.theta, LoopRows::kAll);

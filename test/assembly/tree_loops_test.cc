@@ -9,11 +9,7 @@ namespace codesign {
 namespace {
 
 TEST(TreeLoops, KnowWhatIsGivenAndWhatIsDropped) {
-  ReactionSharing sharing;
-  sharing.compliance = 1e-9;
-  sharing.pairs = {2};
-  sharing.dropped = {{2, -1, 1}};
-  LoopsToClose c(triangle(), "{right_hinge: {position: 0.5}}", sharing);
+  LoopsToClose c(triangle(), "{right_hinge: {position: 0.5}}", without_row(1));
   ASSERT_EQ(c.loops.jacobian.rows(), 5);
   EXPECT_EQ(c.loops.drops, (std::vector<bool>{false, true, false, false, false}));
   EXPECT_EQ(c.loops.given.position, (std::vector<bool>{false, true}));
