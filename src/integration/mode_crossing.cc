@@ -44,7 +44,7 @@ std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, OneStep<doubl
 // of bristles at rest, do not count.
 bool ModeWatch::is_alone(int guard) const {
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k)
-    if (k != guard && side(k, residual_) < 0.0 && samples_.row(k).cwiseAbs().maxCoeff() > sizes_[k])
+    if (k != guard && side(k, residual_) < 0.0 && along(k).cwiseAbs().maxCoeff() > sizes_[k])
       return false;
   return true;
 }

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
 #include <mutex>
@@ -10,6 +11,7 @@
 #include "engine/rank_fixture.h"
 #include "engine/thread_engine.h"
 #include "ensemble/ensemble_fixture.h"
+#include "ensemble/scenario.h"
 #include "paths.h"
 #include "problem/load_problem.h"
 
@@ -80,6 +82,23 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
       EXPECT_EQ(again.statistics.constraint_drift, expected[k].statistics.constraint_drift)
           << solver << ", task " << k;
     }
+  }
+}
+
+TEST(Engine, WhatSwitchesDoesNotDependOnWhatItsWorkerDidBefore) {
+  const Problem problem = block(R"(
+runs: {slow: {}, fast: {initial_state: {slide: {velocity: 2.0}}}}
+uncertain: {mu: {uniform: [0.2, 0.4]}, friction_law: {choice: [brown_mcphee, gonthier]}}
+robust: {samples: 4}
+)");
+  std::vector<EvaluationTask> all;
+  for (const Scenario& scenario : make_scenarios(problem))
+    all.push_back({scenario.system, scenario.parameters(problem.start()), gradient_if(true)});
+  SerialEngine one;
+  for (int round = 0; round < 2; ++round) {
+    if (round == 1) std::reverse(all.begin(), all.end());
+    for (const EvaluationTask& task : all)
+      expect_same_bits(one.evaluate({task}, nullptr), SerialEngine().evaluate({task}, nullptr));
   }
 }
 
