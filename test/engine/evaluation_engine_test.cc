@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <set>
