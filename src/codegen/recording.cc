@@ -88,21 +88,28 @@ void Recording::note(int node) {
     noted_.push_back(node);
 }
 
-bool Recording::decide(int a, int b, bool expected, unsigned place, bool is_switch) {
+bool Recording::decide(int a, int b, bool expected, unsigned place, DecisionKind kind) {
   const auto [known, is_new] = decided_.try_emplace({a, b}, static_cast<int>(guards_.size()));
   decisions_.push_back(known->second);
   if (is_new) {
     if (std::find(places_.begin(), places_.end(), place) == places_.end()) places_.push_back(place);
     bool outcome = guards_.size() < followed_.size() ? followed_[guards_.size()] : expected;
-    const bool may_be_held = is_switch && records_switches_ && (node(a).varies || node(b).varies);
+    const bool may_be_held =
+        kind != DecisionKind::kSmooth && records_switches_ && (node(a).varies || node(b).varies);
     const std::size_t switches = switch_origins_.size();
     if (may_be_held && switches < held_.size()) outcome = held_[switches];
     if (turned_ && turned_(place)) outcome = !outcome;
     if (may_be_held) {
       switch_origins_.push_back(origin_);
       switch_origins_.back().compares_with_literal = node(b).operation == Operation::kLiteral;
+      switch_origins_.back().is_kink = kind == DecisionKind::kKink;
     }
     guards_.push_back({a, b, outcome, known->second, may_be_held});
+  } else if (kind == DecisionKind::kSwitch && guards_[to_index(known->second)].is_switch) {
+    // A kink of one formula may be a jump of another.
+    const auto before = std::count_if(guards_.begin(), guards_.begin() + known->second,
+                                      [](const Guard& guard) { return guard.is_switch; });
+    switch_origins_[to_index(before)].is_kink = false;
   }
   return guards_[to_index(known->second)].outcome;
 }

@@ -41,6 +41,14 @@ struct SwitchOrigin {
   std::optional<SourceId> source;  ///< empty: not known
   int part = -1;  ///< of an expression the operation; of stops and friction laws their decision
   bool compares_with_literal = false;  ///< y of x < y is a number, as in floor(x)
+  bool is_kink = false;  ///< what it decides is continuous by its form: is_below_kink()
+};
+
+/// What the results of a computation do where a decision turns.
+enum class DecisionKind {
+  kSmooth,  ///< they go on with the same slope: is_less()
+  kSwitch,  ///< a kink or a jump: is_below()
+  kKink     ///< a kink in all states and designs: is_below_kink()
 };
 
 /// Elementary operations of a Recording.
@@ -105,9 +113,10 @@ class Recording {
 
   /// The outcome of a < b, which a guard keeps: as it was decided before, else the next of those to
   /// hold() if it is a switch, else the next of the outcomes to follow(), else `expected`.
-  /// @param place place_in_source() of the decision. @param is_switch whether a result has a kink
-  /// or a jump there; counts while record_switches(true) and if the outcome varies.
-  bool decide(int a, int b, bool expected, unsigned place, bool is_switch = false);
+  /// @param place place_in_source() of the decision. @param kind of a switch; counts while
+  /// record_switches(true) and if the outcome varies.
+  bool decide(int a, int b, bool expected, unsigned place,
+              DecisionKind kind = DecisionKind::kSmooth);
   /// Later decisions have these outcomes in turn, and the expected outcomes after them. The guards
   /// of two recordings of one computation with the same outcomes are the same, and so are their
   /// nodes.

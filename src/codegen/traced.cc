@@ -96,22 +96,26 @@ double value_of(const Traced& x) {
 
 namespace {
 
-bool decide(const Traced& x, const Traced& y, bool likely, unsigned place, bool is_switch) {
+bool decide(const Traced& x, const Traced& y, bool likely, unsigned place, DecisionKind kind) {
   if (x.is_literal() && y.is_literal()) return x.value() < y.value();
   Recording* const recording = x.is_literal() ? y.recording() : x.recording();
   const int a = x.node_in(recording), b = y.node_in(recording);
   const bool varies = recording->node(a).varies || recording->node(b).varies;
-  return recording->decide(a, b, varies ? likely : x.value() < y.value(), place, is_switch);
+  return recording->decide(a, b, varies ? likely : x.value() < y.value(), place, kind);
 }
 
 }  // namespace
 
 bool is_less(const Traced& x, const Traced& y, bool likely, unsigned place) {
-  return decide(x, y, likely, place, false);
+  return decide(x, y, likely, place, DecisionKind::kSmooth);
 }
 
 bool is_below(const Traced& x, const Traced& y, bool likely, unsigned place) {
-  return decide(x, y, likely, place, true);
+  return decide(x, y, likely, place, DecisionKind::kSwitch);
+}
+
+bool is_below_kink(const Traced& x, const Traced& y, bool likely, unsigned place) {
+  return decide(x, y, likely, place, DecisionKind::kKink);
 }
 
 // Bisection between a power of two and the next one. Beyond the last one it is the number.

@@ -107,6 +107,9 @@ bool is_less(const Traced& x, const Traced& y, bool likely,
 /// The same for a switch, whose guard may be held; see Recording::record_switches().
 bool is_below(const Traced& x, const Traced& y, bool likely,
               unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
+/// The same for a switch at a kink: SwitchOrigin::is_kink.
+bool is_below_kink(const Traced& x, const Traced& y, bool likely,
+                   unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE()));
 
 }  // namespace codesign
 

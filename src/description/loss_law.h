@@ -20,11 +20,11 @@ struct LossValues {
 
   T residual() const { return signal - reference; }
   /// Whether r > kink, a switch. It compares the signal itself, whose size says how much of a
-  /// residual near zero is rounding. @param likely see is_below().
+  /// residual near zero is rounding. @param likely see is_below_kink().
   bool is_above(const T& kink, LossKink part, bool likely,
                 unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) const {
     name_part(residual(), part);
-    return is_below(T(reference + kink), signal, likely, place);
+    return is_below_kink(T(reference + kink), signal, likely, place);
   }
 };
 

@@ -33,7 +33,7 @@ Vector3<T> cut_off(const Vector3<T>& x, const T& limit) {
   using std::sqrt;
   const T square = dot(x, x);
   name_part(square, kBristleCut);
-  if (!is_below(T(limit * limit), square, false)) return x;
+  if (!is_below_kink(T(limit * limit), square, false)) return x;
   return limit * ((T(1.0) / sqrt(square)) * x);
 }
 
@@ -64,7 +64,7 @@ Bristle<T> gonthier(const Vector3<T>& u, const BristleState<T>& state,
   b.mu = cut_off<T>(s * resting + left * sliding,
                     T(c.mu_dynamic + (c.mu_static - c.mu_dynamic) * state.dwell));
   name_part(state.dwell, kBristleDwell);
-  const T pace = is_below(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
+  const T pace = is_below_kink(s, state.dwell, true) ? bristle_rate : T(T(1.0) / c.dwell_time);
   b.dwell_rate = pace * (s - state.dwell);
   return b;
 }

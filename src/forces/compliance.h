@@ -51,7 +51,7 @@ template <class T>
 T joint_stop(const T& excess, const T& rate, const T& stiffness, const T& dissipation,
              const T& width) {
   using std::sqrt;
-  if (!is_below(T(0.0), excess, false)) return T(0.0);
+  if (!is_below_kink(T(0.0), excess, false)) return T(0.0);
   const T depth = rounded_ramp(excess, width);
   const T y = dissipation * rate, root = sqrt(T(1.0) + y * y);
   // h(y) = 1/(sqrt(1 + y^2) - y) avoids cancellation for negative y.

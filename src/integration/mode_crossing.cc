@@ -123,6 +123,20 @@ Status ModeWatch::count_return(double t) {
               "in place of sign() of a velocity, or make the expression continuous"};
 }
 
+bool ModeWatch::is_kink(int k, Equations<double>* equations) const {
+  const SwitchOrigin* origin = equations->compiled().switch_origin(mode_, to_index(k));
+  return origin != nullptr && origin->is_kink;
+}
+
+// Both modes have the same rates there, so that the guard leaves zero in one direction and no mode
+// leads back: shorter attempts follow it, until their lengths are rounding.
+bool ModeWatch::returns_to_kink(const Crossing& crossing, OneStep<double>* step) const {
+  const double t = step->state().t, least = smallest_step(t, system_.study().duration);
+  constexpr double kAtOnce = 4.0;
+  return crossing.guard >= 0 && crossing.to * step_size_ <= least &&
+         t - last_change_ <= kAtOnce * least && is_kink(crossing.guard, &step->equations());
+}
+
 // At a kink the rates are continuous, and no sensitivity jumps. An acceleration that changes the
 // velocity by less than its rounding in the whole run is none: of a stop that a body at constant
 // velocity touches, by the rounding of its position.
@@ -207,10 +221,12 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
     change->origin = equations->compiled().switch_origin(mode_, to_index(k));
     change->becomes_true = !mode_[to_index(k)];
   }
+  const std::vector<bool> sought = change->mode;
   if (Status status = enter(assembly, equations, change); !status.ok()) return status;
   equations->residual(change->behind, &residual_, &change->g);
   // Where a guard is only touched, its instant has no derivative.
-  change->is_jump = has_jump(*change);
+  const bool is_kink = change->mode == sought && change->origin && change->origin->is_kink;
+  change->is_jump = !is_kink && has_jump(*change);
   change->is_touched = change->is_jump && change->guard >= 0 &&
                        !(std::abs(change->guard_rate) > kGrazing * guard_pace_);
   if (!change->is_jump || is_touched(change->guard_rate)) change->guard = -1;

@@ -116,6 +116,7 @@ EventLog::Entry ModeWatch::touch_at(double time, Equations<double>* equations) c
 
 bool ModeWatch::jumps_beyond(int k, const State<double>& at, Assembly* assembly,
                              Equations<double>* equations) {
+  if (is_kink(k, equations)) return false;
   ModeChange change;
   change.before = change.behind = at;
   change.mode = beyond(k);
@@ -322,6 +323,10 @@ bool ModeWatch::cut(OneStep<double>* step) {
   if (crossing.guard < 0) crossing = crossing_at_end(step);
   if (crossing.guard < 0) return true;
   const double least = smallest_step(step->state().t, system_.study().duration);
+  if (returns_to_kink(crossing, step)) {
+    if (step_size_ > kShortest * least) return false;
+    return is_due_ = true;
+  }
   // A guard that is beyond zero from the beginning on jumped there: it has no instant of its own.
   if (!has_left(crossing.guard, side(crossing.guard, samples_.col(0)))) guard_ = crossing.guard;
   is_due_ = true;

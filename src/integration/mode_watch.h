@@ -104,6 +104,8 @@ class ModeWatch {
   /// A guard is only touched where its rate is at most this share of its range over the attempt
   /// per second: as sharp as its sign is known within kRounding.
   static constexpr double kGrazing = 1e-4;
+  /// Length of an attempt, in smallest steps, that passes a kink to which the motion returns.
+  static constexpr double kShortest = 1e4;
   /// Points at which guards are evaluated after the start of a step: at least so many, and so many
   /// in the duration of the study; more where show_turns() asks for them.
   static constexpr int kLeastPoints = 5, kPointsPerStudy = 1024;
@@ -135,6 +137,11 @@ class ModeWatch {
   /// The range of the guard from the start of the attempt to its zero, per second.
   double pace_before(const Crossing& crossing) const;
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
+  /// Whether nothing jumps at a switch of the mode, whatever its guard is: a kink by its form.
+  bool is_kink(int k, Equations<double>* equations) const;
+  /// Whether a kink is crossed where the attempt begins, at which its mode was just changed: the
+  /// attempt is longer than its guard is known.
+  bool returns_to_kink(const Crossing& crossing, OneStep<double>* step) const;
   bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
   void look_for_touch(int k, double place, double value, OneStep<double>* step);
   /// The switch that the change of the mode concerns, of the mode before it; -1: none.

@@ -250,6 +250,14 @@ bool is_below(const T& x, const T& y, bool likely,
   return is_less(x, y, likely, place);
 }
 
+/// is_below() where the formula has a kink by its form, as max(x - y, 0) has: in all states and
+/// designs it is continuous there, so that what jumps is rounding.
+template <class T>
+bool is_below_kink(const T& x, const T& y, bool likely,
+                   unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
+  return is_less(x, y, likely, place);
+}
+
 /// While it lives, recordings name their switches after `source`, an object that stays where it is:
 /// an expression, a joint's stops. For all scalars but Traced it does nothing. @param x a number
 /// of the recording; of a literal nothing is recorded.

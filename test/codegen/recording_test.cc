@@ -101,15 +101,30 @@ TEST(Recording, HoldsTheOutcomesOfSwitches) {
             design = r.leaf(0, 3, false), other = r.leaf(0, 4, false);
   r.follow({true, false});
   r.hold({false});
-  EXPECT_TRUE(r.decide(z, x, true, 9, true)) << "switches are not recorded yet";
+  EXPECT_TRUE(r.decide(z, x, true, 9, DecisionKind::kSwitch)) << "switches are not recorded yet";
   r.record_switches(true);
-  EXPECT_FALSE(r.decide(x, y, true, 10, true)) << "held";
-  EXPECT_TRUE(r.decide(y, z, true, 11, true)) << "the mode is at its end: as expected";
-  EXPECT_FALSE(r.decide(design, other, false, 12, true));
+  EXPECT_FALSE(r.decide(x, y, true, 10, DecisionKind::kSwitch)) << "held";
+  EXPECT_TRUE(r.decide(y, z, true, 11, DecisionKind::kSwitch))
+      << "the mode is at its end: as expected";
+  EXPECT_FALSE(r.decide(design, other, false, 12, DecisionKind::kSwitch));
   EXPECT_FALSE(r.guards()[0].is_switch);
   EXPECT_TRUE(r.guards()[1].is_switch);
   EXPECT_TRUE(r.guards()[2].is_switch);
   EXPECT_FALSE(r.guards()[3].is_switch) << "no state changes it";
+}
+
+TEST(Recording, AKinkOfOneFormulaMayBeAJumpOfAnother) {
+  Recording r;
+  const int x = r.leaf(0, 0, true), y = r.leaf(0, 1, true), z = r.leaf(0, 2, true);
+  r.record_switches(true);
+  r.decide(z, x, true, 9, DecisionKind::kSwitch);
+  r.decide(x, y, true, 10, DecisionKind::kKink);
+  r.decide(y, z, true, 11, DecisionKind::kKink);
+  EXPECT_FALSE(r.switch_origins()[0].is_kink);
+  EXPECT_TRUE(r.switch_origins()[1].is_kink);
+  r.decide(x, y, true, 12, DecisionKind::kSwitch);
+  EXPECT_FALSE(r.switch_origins()[1].is_kink);
+  EXPECT_TRUE(r.switch_origins()[2].is_kink);
 }
 
 TEST(Recording, NotesExpressionsThatVary) {
