@@ -40,6 +40,13 @@ void add_matrices(const StateSpace& system, Json* object) {
   (*object)["D"] = rows_json(system.D);
 }
 
+Json measured_json(const std::vector<ControllerDescription>& controllers) {
+  Json measured = Json::object();
+  for (const ControllerDescription& controller : controllers)
+    if (controller.kind->has_error()) measured[controller.name] = controller.input.text;
+  return measured;
+}
+
 Json loops_json(const LinearModel& model, bool with_response) {
   Json loops = Json::object();
   for (const ControllerLoop& loop : model.loops) {
