@@ -132,7 +132,8 @@ def step_responses(result):
         controller, _, quantity = name.rpartition("/")
         if quantity == "setpoint" or quantity.startswith("reference["):
             rows, missing = rows_of(result, controller)
-            groups.append((name, [(output, steps.response(result, name, c, d)) for output, c, d in rows], missing))
+            motion = steps.Motion(result, name)
+            groups.append((name, [(output, steps.response(motion, c, d)) for output, c, d in rows], missing))
     smallest_shown = SMALLEST * max((abs(value) for _, shown, _ in groups for _, step in shown for value in step.values), default=0.0)
     return [(name, [(output, step_words(step, period), step_chart(name, output, step, period)) for output, step in shown
                     if max(map(abs, step.values)) > smallest_shown], missing) for name, shown, missing in groups]

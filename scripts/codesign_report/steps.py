@@ -4,7 +4,8 @@ import collections
 import math
 import operator
 
-POINTS = 600  # of a response
+POINTS = 600  # of a continuous response
+MOST_PERIODS = 2000  # of a sampled one
 BAND = 0.02  # about the final value, relative to it
 
 # final, overshoot and settling [s] are None where the response has none: an unstable motion, or one that ends at zero.
@@ -36,15 +37,6 @@ def held(A, b, interval):
     """(Phi, gamma) of x(t + interval) = Phi x(t) + gamma u with a constant u: the exponential of [[A, b], [0, 0]]."""
     whole = exponential([[interval * value for value in (*row, last)] for row, last in zip(A, b)] + [[0.0] * (len(b) + 1)])
     return [row[:-1] for row in whole[:-1]], [row[-1] for row in whole[:-1]]
-
-
-def follow(Phi, gamma, start, c, d, count):
-    """The values y(k) = c x(k) + d of a unit step for k = 0 to count."""
-    x, values = start, []
-    for _ in range(count + 1):
-        values.append(sum(map(operator.mul, c, x)) + d)
-        x = [sum(map(operator.mul, row, x)) + g for row, g in zip(Phi, gamma)]
-    return values
 
 
 def powered(A, b, count):
@@ -81,53 +73,67 @@ def settled_at(values, final):
     return next((k + 1 for k in range(len(values) - 1, -1, -1) if abs(values[k] - final) > band), 0)
 
 
-def followed(advance, start, c, d, span, is_stable):
-    """The response over a span, of a stable motion over as long as it takes to settle and about as long again.
-
-    @param advance a function of a span that returns (interval, number of intervals, Phi, gamma)."""
-    final = None
-    for _ in range(12):
-        interval, count, Phi, gamma = advance(span)
-        values = follow(Phi, gamma, start, c, d, count)
-        if not is_stable:
-            break
-        final = values[-1] if final is None else final
-        settled = settled_at(values, final) / count
-        if settled > 0.3 or settled == 0.0:
-            break
-        span *= max(2.0 * settled, 0.02)
-    times = [interval * k for k in range(count + 1)]
-    if final is None or abs(final) <= 1e-6 * max(map(abs, values)):
-        return Step(times, values, interval, None if final is None else 0.0, None, None)
-    overshoot = max(0.0, max(value / final for value in values) - 1.0)
-    return Step(times, values, interval, final, overshoot, times[min(count, settled_at(values, final))])
-
-
-def continuous(A, b, start, c, d, span, is_stable):
-    return followed(lambda time: (time / POINTS, POINTS, *held(A, b, time / POINTS)), start, c, d, span, is_stable)
-
-
-def sampled(A, b, c, d, period, span, is_stable):
-    """Values at the ends of periods, of many only at each second, third, ..."""
-    def advance(time):
-        periods = max(10, math.ceil(time / period))
-        stride = math.ceil(periods / POINTS)
-        return stride * period, math.ceil(periods / stride), *powered(A, b, stride)
-
-    return followed(advance, [0.0] * len(b), c, d, span, is_stable)
-
-
-def response(model, name, c, d):
-    """The response of c x + D u to a unit step of an input.
+class Motion:
+    """The states after a unit step of an input.
 
     The rate of a set-point that steps is an impulse, its acceleration the derivative of one: both leave the state B_rate + A B_acceleration
-    at 0+. A sampled law reads rates at instants at which they are zero. @param d one number per input."""
-    A, column = model["A"], {each: k for k, each in enumerate(model["inputs"])}
-    b, direct = [row[column[name]] for row in model["B"]], d[column[name]]
-    is_stable = model["stability"] == "stable"
-    span = horizon(model["modes"], is_stable)
-    if model.get("period"):
-        return sampled(A, b, c, direct, model["period"], span, is_stable)
-    rate, acceleration = ([row[column[name + what]] for row in model["B"]] if name + what in column else [0.0] * len(b) for what in ("_rate", "_acceleration"))
-    start = [r + sum(map(operator.mul, row, acceleration)) for r, row in zip(rate, A)]
-    return continuous(A, b, start, c, direct, span, is_stable)
+    at 0+. A sampled law reads rates at instants at which they are zero."""
+
+    def __init__(self, model, name):
+        self.A, self.period, self.is_stable = model["A"], model.get("period"), model["stability"] == "stable"
+        columns = dict(zip(model["inputs"], zip(*model["B"])))
+        none = [0.0] * len(self.A)
+        self.b, self.place = columns.get(name, none), model["inputs"].index(name)
+        rate, acceleration = (none if self.period else columns.get(name + what, none) for what in ("_rate", "_acceleration"))
+        self.start = [r + sum(map(operator.mul, row, acceleration)) for r, row in zip(rate, self.A)]
+        self.span = horizon(model["modes"], self.is_stable)
+        self.known = {}
+
+    def advance(self, span):
+        """(interval, number of intervals, Phi, gamma). Of many periods each second, third, ... is an interval."""
+        if not self.period:
+            return span / POINTS, POINTS, *held(self.A, self.b, span / POINTS)
+        periods = max(10, math.ceil(span / self.period))
+        stride = math.ceil(periods / MOST_PERIODS)
+        return stride * self.period, math.ceil(periods / stride), *powered(self.A, self.b, stride)
+
+    def states(self, span):
+        """(interval, states at its multiples), which several outputs share."""
+        if span not in self.known:
+            interval, count, Phi, gamma = self.advance(span)
+            x, found = self.start, []
+            for _ in range(count + 1):
+                found.append(x)
+                x = [sum(map(operator.mul, row, x)) + g for row, g in zip(Phi, gamma)]
+            self.known[span] = interval, found
+        return self.known[span]
+
+
+def peak(values, is_smooth):
+    """The largest value; of a smooth curve that of the parabola through it and its neighbours."""
+    k = max(range(len(values)), key=values.__getitem__)
+    if not is_smooth or not 0 < k < len(values) - 1:
+        return values[k]
+    before, here, after = values[k - 1:k + 2]
+    bend = 2.0 * here - before - after
+    return here + (after - before) ** 2 / (8.0 * bend) if bend > 0.0 else here
+
+
+def response(motion, c, d):
+    """c x + D u, of a stable motion over as long as it takes to settle and about as long again. @param d one number per input."""
+    final, span = None, motion.span
+    for _ in range(24):
+        interval, states = motion.states(span)
+        values = [sum(map(operator.mul, c, x)) + d[motion.place] for x in states]
+        if not motion.is_stable:
+            break
+        final = values[-1] if final is None else final
+        settled = settled_at(values, final) / (len(values) - 1)
+        if settled > 0.25 or settled == 0.0:
+            break
+        span *= 2.0 ** math.ceil(math.log2(max(2.0 * settled, 0.02)))
+    times = [interval * k for k in range(len(values))]
+    if final is None or abs(final) <= 1e-6 * max(map(abs, values)):
+        return Step(times, values, interval, None if final is None else 0.0, None, None)
+    overshoot = max(0.0, peak([value / final for value in values], not motion.period) - 1.0)
+    return Step(times, values, interval, final, overshoot, times[min(len(times) - 1, settled_at(values, final))])

@@ -50,7 +50,7 @@ int linearize(const Arguments& arguments, const Console& console) {
       add_stability(model, &object);
       add_matrices(model.system, &object);
       object["measured"] = measured_json(study_of(problem).controllers);
-      object["loops"] = loops_json(model, true);
+      object["loops"] = loops_json(model);
     }
   }
   add_warnings(arguments, problem, {}, &object, console);

@@ -47,19 +47,20 @@ Json measured_json(const std::vector<ControllerDescription>& controllers) {
   return measured;
 }
 
-Json loops_json(const LinearModel& model, bool with_response) {
+Json loops_json(const LinearModel& model) {
   Json loops = Json::object();
   for (const ControllerLoop& loop : model.loops) {
     Json entry = Json::object();
-    if (loop.why_not.empty())
+    if (loop.why_not.empty()) {
       visit_margins(loop.margins,
                     [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
                       if (margin)
                         entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
                     });
-    else
+      entry["response"] = response_of(loop);
+    } else {
       entry["why_not"] = loop.why_not;
-    if (with_response && loop.why_not.empty()) entry["response"] = response_of(loop);
+    }
     loops[loop.controller] = std::move(entry);
   }
   return loops;

@@ -15,9 +15,8 @@ void add_stability(const LinearModel& model, Json* object);
 void add_matrices(const StateSpace& system, Json* object);
 /// By controller that compares a signal with a setpoint: the signal.
 Json measured_json(const std::vector<ControllerDescription>& controllers);
-/// By controller: the margins of visit_margins() that there are, with their frequencies, or
-/// `why_not`.
-/// @param with_response whether L at all frequencies is added.
-Json loops_json(const LinearModel& model, bool with_response);
+/// By controller: the margins of visit_margins() that there are, with their frequencies, and
+/// L at all of them, or `why_not`.
+Json loops_json(const LinearModel& model);
 
 }  // namespace codesign
