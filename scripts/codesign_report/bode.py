@@ -53,7 +53,8 @@ def phase_chart(name, response, marks):
     for turn in turns:
         drawn.curve([(fs[0], turn), (fs[-1], turn)], "edge")
     drawn.curve(list(zip(fs, phases)), "tuned line")
-    texts = {"phase_margin": lambda value: f"phase margin {short(math.degrees(value), 4)}\u00b0", "delay_margin": lambda value: f"delay margin {short(value, 4)} s"}
+    texts = {"phase_margin": lambda value: f"phase margin {short(math.degrees(value), 4)}\u00b0",
+             "delay_margin": lambda value: f"delay margin {short(value, 4)} s"}
     for key, text in texts.items():
         if key in marks:
             value, f = marks[key]

@@ -107,9 +107,10 @@ def is_dotted(step, period):
     return bool(period) and len(step.times) <= FEW
 
 
-def step_chart(name, output, step, period):
+def step_chart(name, output, step, period, is_measured):
+    """@param is_measured whether the output is what the set-point is for, which is drawn then."""
     series = Series(output, "tuned", step.times, step.values, "dots" if is_dotted(step, period) else "line")
-    return line_chart(f"{output} after a step of {name}", [series], "time [s]", "per unit of the step", (1.0,), most=steps.POINTS + 2)
+    return line_chart(f"{output} after a step of {name}", [series], "time [s]", "per unit of the step", (1.0,) if is_measured else (), most=steps.POINTS + 2)
 
 
 def step_words(step, period):
@@ -126,17 +127,21 @@ def step_words(step, period):
 
 def step_responses(result):
     """[(set-point, [(output, words, chart)], signal without row)]"""
-    period = result.get("period")
-    groups = []
+    found, period, system = [], result.get("period"), steps.System(result)
     for name in result["inputs"]:
         controller, _, quantity = name.rpartition("/")
         if quantity == "setpoint" or quantity.startswith("reference["):
             rows, missing = rows_of(result, controller)
-            motion = steps.Motion(result, name)
-            groups.append((name, [(output, steps.response(motion, c, d)) for output, c, d in rows], missing))
-    smallest_shown = SMALLEST * max((abs(value) for _, shown, _ in groups for _, step in shown for value in step.values), default=0.0)
-    return [(name, [(output, step_words(step, period), step_chart(name, output, step, period)) for output, step in shown
-                    if max(map(abs, step.values)) > smallest_shown], missing) for name, shown, missing in groups]
+            motion = steps.Motion(system, name)
+            found.append((name, [(output, steps.response(motion, c, d)) for output, c, d in rows], missing))
+    zero = SMALLEST * max((abs(value) for _, shown, _ in found for _, step in shown for value in step.values), default=0.0)
+    groups = []
+    for name, shown, missing in found:
+        measured = result.get("measured", {}).get(name.rpartition("/")[0])
+        charts = [(output, step_words(step, period), step_chart(name, output, step, period, output == measured)) for output, step in shown
+                  if max(map(abs, step.values)) > zero]
+        groups.append((name, charts, missing))
+    return groups
 
 
 def context(found):

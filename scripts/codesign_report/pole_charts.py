@@ -106,7 +106,8 @@ def maps(model):
     distances = sorted(abs(value - (1.0 if period else 0.0)) for _, value, _ in found)
     if period:
         half = max(1.12, 1.12 * max(abs(value) for _, value, _ in found))
-        charts = [("Poles", f"z = exp(s T), T = {short(period, 6)} s; without those at 0; dotted: constant damping ratio", z_map(found, 0.0, half, "Poles in the plane of z"))]
+        words_beside = f"z = exp(s T), T = {short(period, 6)} s; without those at 0; dotted: constant damping ratio"
+        charts = [("Poles", words_beside, z_map(found, 0.0, half, "Poles in the plane of z"))]
         near = [d for d in distances if 0.0 < d < 0.2]
     else:
         charts = [("Poles", "dotted: constant damping ratio", s_map(found, "Poles in the plane of s"))]

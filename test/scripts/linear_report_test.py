@@ -15,7 +15,7 @@ import unittest
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
-from codesign_report import bode, charts, linear, nyquist, numbers, open_loop, plane, pole_charts, steps  # noqa: E402
+from codesign_report import bode, charts, linear, matrices, nyquist, numbers, open_loop, plane, pole_charts, steps  # noqa: E402
 
 PROGRAM = os.path.abspath(sys.argv[1]) if len(sys.argv) > 1 else "codesign"
 CART = re.search(r"<robot.*?</robot>", (ROOT / "doc/linearization.md").read_text(), re.DOTALL).group(0)
@@ -45,7 +45,7 @@ class Steps(unittest.TestCase):
         for w, zeta in ((3.0, 0.2), (50.0, 0.7), (1e-3, 0.05)):
             wd, decay = w * math.sqrt(1.0 - zeta ** 2), zeta * w
             mode = {"growth": -decay, "frequency": wd / open_loop.TURN}
-            motion = steps.Motion(model_of([[0.0, 1.0], [-w * w, -2.0 * zeta * w]], [0.0, w * w], [mode]), "c/setpoint")
+            motion = steps.Motion(steps.System(model_of([[0.0, 1.0], [-w * w, -2.0 * zeta * w]], [0.0, w * w], [mode])), "c/setpoint")
             step = steps.response(motion, [1.0, 0.0], [0.0])
             self.assertEqual(len(step.times), steps.POINTS + 1)
             for t, value in zip(step.times, step.values):
@@ -54,20 +54,20 @@ class Steps(unittest.TestCase):
             self.assertAlmostEqual(step.overshoot, math.exp(-math.pi * decay / wd), 3)
             # The envelope reaches 2 % after its settling time.
             self.assertLessEqual(step.settling, math.log(50.0 / math.sqrt(1.0 - zeta ** 2)) / decay + step.interval)
-            self.assertGreater(step.settling / step.times[-1], 0.25, "most of the drawing shows the motion")
+            self.assertGreater(step.settling / step.times[-1], 0.35, "most of the drawing shows the motion")
 
     def test_the_rate_of_a_setpoint_is_an_impulse(self):
         """(d s + p)/(s^2 + d s + p) with poles -1 and -2: 1 + exp(-t) - 2 exp(-2 t)."""
         model = model_of([[0.0, 1.0], [-2.0, -3.0]], [0.0, 2.0], [{"growth": -1.0, "frequency": 0.0}, {"growth": -2.0, "frequency": 0.0}])
         model.update(inputs=["c/setpoint", "c/setpoint_rate"], B=[[0.0, 0.0], [2.0, 3.0]])
-        step = steps.response(steps.Motion(model, "c/setpoint"), [1.0, 0.0], [0.0, 0.0])
+        step = steps.response(steps.Motion(steps.System(model), "c/setpoint"), [1.0, 0.0], [0.0, 0.0])
         for t, value in zip(step.times, step.values):
             self.assertAlmostEqual(value, 1.0 + math.exp(-t) - 2.0 * math.exp(-2.0 * t), 11)
 
     def test_a_sampled_system_has_one_value_per_period(self):
         for a, stride in ((0.9, 1), (0.9999, None)):
             model = model_of([[a]], [1.0 - a], [{"growth": math.log(a) / 0.1, "frequency": 0.0}], period=0.1)
-            step = steps.response(steps.Motion(model, "c/setpoint"), [1.0], [0.0])
+            step = steps.response(steps.Motion(steps.System(model), "c/setpoint"), [1.0], [0.0])
             found = round(step.interval / 0.1)
             self.assertTrue(found == stride or stride is None and found > 1, found)
             for t, value in zip(step.times, step.values):
@@ -77,16 +77,16 @@ class Steps(unittest.TestCase):
     def test_growing_and_undamped_motions_have_no_final_value(self):
         for growth, stability in ((0.5, "unstable"), (0.0, "neutral")):
             model = model_of([[growth]], [1.0], [{"growth": growth, "frequency": 0.0}], stability=stability)
-            step = steps.response(steps.Motion(model, "c/setpoint"), [1.0], [0.0])
+            step = steps.response(steps.Motion(steps.System(model), "c/setpoint"), [1.0], [0.0])
             self.assertEqual((step.final, step.overshoot, step.settling), (None, None, None))
             end = step.times[-1]
             self.assertAlmostEqual(step.values[-1] / ((math.exp(growth * end) - 1.0) / growth if growth else end), 1.0, 9)
 
     def test_exponentials(self):
-        turned = steps.exponential([[0.0, -20.0], [20.0, 0.0]])
+        turned = matrices.exponential([[0.0, -20.0], [20.0, 0.0]])
         self.assertAlmostEqual(turned[0][0], math.cos(20.0), 12)
         self.assertAlmostEqual(turned[1][0], math.sin(20.0), 12)
-        self.assertLess(abs(steps.exponential([[-1e6, 1.0], [0.0, -1.0]])[1][1] - math.exp(-1.0)), 1e-9)
+        self.assertLess(abs(matrices.exponential([[-1e6, 1.0], [0.0, -1.0]])[1][1] - math.exp(-1.0)), 1e-9)
 
 
 class Diagrams(unittest.TestCase):
@@ -184,7 +184,7 @@ class Pages(unittest.TestCase):
             study = STUDY.format(p=0.8, more=more)
             result, text = self.page(study)
             self.assertEqual(result["measured"], {"servo": "slide/position"})
-            step = steps.response(steps.Motion(result, "servo/setpoint"), *linear.rows_of(result, "servo")[0][0][1:])
+            step = steps.response(steps.Motion(steps.System(result), "servo/setpoint"), *linear.rows_of(result, "servo")[0][0][1:])
             (self.folder / "run.yaml").write_text(study.replace("setpoint: 0.0", "setpoint: 0.01"))
             done = self.run_program("simulate", self.folder / "cart.urdf", self.folder / "run.yaml", "--json", "--samples", "201", "--signals", "slide/position")
             series = json.loads(done.stdout)["series"]
