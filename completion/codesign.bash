@@ -39,7 +39,9 @@ _codesign() {
     mapfile -t COMPREPLY < <(compgen -W "${options// X/} --help" -- "$word")
   elif [ "$command" = new ]; then
     COMPREPLY=()
-  elif [ "$command" = report ] || [ "$command" = apply ]; then
+  elif [ "$command" = report ]; then
+    mapfile -t COMPREPLY < <(compgen -f -X '!*.@(bag|json)' -- "$word"; compgen -d -- "$word")
+  elif [ "$command" = apply ]; then
     mapfile -t COMPREPLY < <(compgen -f -X '!*.bag' -- "$word"; compgen -d -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -X '!*.@(urdf|xml|yaml|yml)' -- "$word"; compgen -d -- "$word")

@@ -35,7 +35,8 @@ _codesign() {
   done
   case ${words[2]} in
     new) _arguments '1:command:' '2:folder:' $options ;;
-    report|apply) _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' $options ;;
+    report) _arguments '1:command:' '2:job:_files -g "*.(bag|json)(-.) *(-/)"' $options ;;
+    apply) _arguments '1:command:' '2:job:_files -g "*.bag(-.) *(-/)"' $options ;;
     *) _arguments '1:command:' '2:model:_files -g "*.(urdf|xml)"' '3:study:_files -g "*.(yaml|yml)"' $options '--help[the options]' ;;
   esac
 }

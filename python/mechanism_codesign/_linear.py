@@ -2,10 +2,13 @@
 """Small motions about a state."""
 from __future__ import annotations
 
+import os
 from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
+
+from . import _core, _pages
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
@@ -23,10 +26,12 @@ class Linearization:
     stability: "stable", "unstable" or "neutral".
     verdict: the same with the pole that decides and what is counted.
     modes: the least stable one first, each with growth [1/s], frequency [Hz], damping_ratio, rates of the joints and, sampled, radius.
+    measured: by controller the signal that it compares with its set-point.
     loops: by controller the margins that there are, each {"value", "frequency"} [rad, s, rad/s], or {"why_not"}.
     """
 
     def __init__(self, record: Dict[str, Any]):
+        self._record = record
         self.states: List[str] = record["states"]
         self.inputs: List[str] = record["inputs"]
         self.outputs: List[str] = record["outputs"]
@@ -37,6 +42,7 @@ class Linearization:
         self.stability: str = record["stability"]
         self.verdict: str = record["verdict"]
         self.modes: List[Dict[str, Any]] = record["modes"]
+        self.measured: Dict[str, str] = record["measured"]
         self.loops: Dict[str, Dict[str, Any]] = {name: {key: value for key, value in loop.items() if key != "response"}
                                                  for name, loop in record["loops"].items()}
         self._responses = {name: loop["response"] for name, loop in record["loops"].items() if "response" in loop}
@@ -50,6 +56,11 @@ class Linearization:
         """(frequencies [rad/s], L), the open loop of a controller, opened at its output. Raises KeyError for one without margins."""
         response = self._responses[controller]
         return np.array(response["frequency"], float), np.array(response["real"]) + 1j * np.array(response["imaginary"])
+
+    def report(self, path: "str | os.PathLike[str] | None" = None) -> str:
+        """The page of `codesign report` as HTML: margins, Bode and Nyquist diagrams, poles, step responses; also written to `path` if it is given."""
+        from .codesign_report import linear, page  # type: ignore  # scripts/codesign_report
+        return _pages.written(page.render(linear.Linearization("linearization", {**self._record, "version": _core.version()})), path)
 
     def __repr__(self) -> str:
         return f"<Linearization, {len(self.states)} states, {self.verdict}>"

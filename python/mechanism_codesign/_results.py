@@ -11,8 +11,8 @@ from typing import Any, cast, Dict, Iterator, List, NamedTuple, Optional, Tuple,
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _notebook
-from ._errors import ComputationError, OutputError, Status, Warning
+from . import _core, _notebook, _pages
+from ._errors import ComputationError, Status, Warning
 
 if TYPE_CHECKING:
     from ._problem import Problem
@@ -224,7 +224,7 @@ class _Job:
 
     def report(self, path: "str | os.PathLike[str] | None" = None) -> str:
         """The page of `codesign report` as HTML; also written to `path` if it is given. write() first, and its commands name that folder."""
-        from .codesign_report import job, output, page  # type: ignore  # scripts/codesign_report
+        from .codesign_report import job, page  # type: ignore  # scripts/codesign_report
         if self._folder is not None:
             html = page.render(job.find_job(self._folder))
         else:
@@ -232,12 +232,7 @@ class _Job:
                 self.write(folder)
                 self._folder = None
                 html = page.render(job.find_job(folder))
-        if path is not None:
-            try:
-                output.write_output(path, html)
-            except OSError as error:
-                raise OutputError(f"{os.fspath(path)}: cannot be written: {error.strerror}") from error
-        return str(html)
+        return _pages.written(html, path)
 
 
 class Result(_Job):

@@ -107,9 +107,9 @@ def x_ticks(x, top, bottom, below):
     return parts
 
 
-def grid(x, y, x_label, y_label):
+def grid(x, y, x_label, y_label, height=HEIGHT):
     """Lines, ticks and the names of both axes."""
-    left, right, bottom = x.start, WIDTH - RIGHT, HEIGHT - BOTTOM
+    left, right, bottom = x.start, WIDTH - RIGHT, height - BOTTOM
     parts = x_ticks(x, TOP, bottom, bottom + 14)
     for value, label in y.spaced(14):
         at = y.place(value)
@@ -119,7 +119,7 @@ def grid(x, y, x_label, y_label):
         parts.append(f'<text class="tick" x="{left + 5:.0f}" y="{TOP + 11}">from {y.offset}</text>')
     x_label += f", from {x.offset}" if x.offset else ""
     parts.append(f'<path class="frame" d="M{left:.0f} {TOP}V{bottom}H{right}"/>')
-    parts.append(f'<text class="axis" x="{right}" y="{HEIGHT - 4}" text-anchor="end">{escape(x_label)}</text>')
+    parts.append(f'<text class="axis" x="{right}" y="{height - 4}" text-anchor="end">{escape(x_label)}</text>')
     parts.append(f'<text class="axis" x="12" y="{(TOP + bottom) / 2:.0f}" text-anchor="middle" '
                  f'transform="rotate(-90 12 {(TOP + bottom) / 2:.0f})">{escape(y_label)}</text>')
     return "".join(parts)

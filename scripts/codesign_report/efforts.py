@@ -3,7 +3,7 @@
 import os
 
 from . import charts, numbers
-from .job import ReportError, read_json
+from .job import ReportError
 
 SHOWN = ("effort", "holding", "breakaway_up", "breakaway_down")  # in postures
 MEANING = {"effort": "holds the posture without friction", "holding": "least effort that holds it with friction",
@@ -13,11 +13,10 @@ MEANING = {"effort": "holds the posture without friction", "holding": "least eff
 class Efforts:
     """One file of `codesign efforts --json`."""
 
-    def __init__(self, path):
-        self.path = path
-        self.result = read_json(path)
+    def __init__(self, path, result):
+        self.path, self.result = path, result
         if not all(isinstance(self.result.get(key), dict) for key in ("joints", "series")):
-            raise ReportError(f"{path}: no output of codesign efforts --json, which has joints and series")
+            raise ReportError(f"{path}: no output of codesign efforts --json, which has joints and series, nor of codesign linearize --json")
         self.name = os.path.splitext(os.path.basename(path))[0]
         self.series = self.result["series"]
         self.in_postures = "time" not in self.series

@@ -8,8 +8,8 @@ import xml.etree.ElementTree as ElementTree
 
 import jinja2
 
-from . import asked, drawing, efforts, geometry, numbers, results, signals, words
-from .job import ReportError, find_job, read_text
+from . import asked, drawing, efforts, geometry, linear, numbers, results, signals, words
+from .job import ReportError, find_job, read_json, read_text
 from .numbers import Markup
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -138,9 +138,12 @@ def environment():
 
 
 def find(path):
-    """What a page can show: the efforts of a JSON file, or a job."""
+    """What a page can show: the linearization or the efforts of a JSON file, or a job."""
     path = os.path.abspath(path)
-    return efforts.Efforts(path) if path.endswith(".json") and os.path.isfile(path) else find_job(path)
+    if not (path.endswith(".json") and os.path.isfile(path)):
+        return find_job(path)
+    result = read_json(path)
+    return linear.Linearization(path, result) if linear.is_one(result) else efforts.Efforts(path, result)
 
 
 def shown(text):
@@ -152,6 +155,8 @@ def render(job):
     """The page as text. Curves get coarser until it is at most two megabytes."""
     if isinstance(job, efforts.Efforts):
         return shown(environment().get_template("efforts.html.j2").render(efforts.context(job)))
+    if isinstance(job, linear.Linearization):
+        return shown(environment().get_template("linear.html.j2").render(linear.context(job)))
     template = environment().get_template("page.html.j2")
     for scale in (1.0, 0.5, 0.2, 0.0):
         text = shown(template.render(context(job, scale)))

@@ -49,7 +49,8 @@ int linearize(const Arguments& arguments, const Console& console) {
     if (model.status.ok()) {
       add_stability(model, &object);
       add_matrices(model.system, &object);
-      object["loops"] = loops_json(model, false);
+      object["measured"] = measured_json(study_of(problem).controllers);
+      object["loops"] = loops_json(model);
     }
   }
   add_warnings(arguments, problem, {}, &object, console);

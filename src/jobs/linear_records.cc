@@ -40,19 +40,27 @@ void add_matrices(const StateSpace& system, Json* object) {
   (*object)["D"] = rows_json(system.D);
 }
 
-Json loops_json(const LinearModel& model, bool with_response) {
+Json measured_json(const std::vector<ControllerDescription>& controllers) {
+  Json measured = Json::object();
+  for (const ControllerDescription& controller : controllers)
+    if (controller.kind->has_error()) measured[controller.name] = controller.input.text;
+  return measured;
+}
+
+Json loops_json(const LinearModel& model) {
   Json loops = Json::object();
   for (const ControllerLoop& loop : model.loops) {
     Json entry = Json::object();
-    if (loop.why_not.empty())
+    if (loop.why_not.empty()) {
       visit_margins(loop.margins,
                     [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
                       if (margin)
                         entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
                     });
-    else
+      entry["response"] = response_of(loop);
+    } else {
       entry["why_not"] = loop.why_not;
-    if (with_response && loop.why_not.empty()) entry["response"] = response_of(loop);
+    }
     loops[loop.controller] = std::move(entry);
   }
   return loops;

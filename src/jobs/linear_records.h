@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "description/motion_study.h"
 #include "jobs/json.h"
 #include "linear/linear_model.h"
 
@@ -10,9 +13,10 @@ namespace codesign {
 void add_stability(const LinearModel& model, Json* object);
 /// Sets `states`, `inputs`, `outputs`, `A`, `B`, `C`, `D` (lists of rows).
 void add_matrices(const StateSpace& system, Json* object);
-/// By controller: the margins of visit_margins() that there are, with their frequencies, or
-/// `why_not`.
-/// @param with_response whether L at all frequencies is added.
-Json loops_json(const LinearModel& model, bool with_response);
+/// By controller that compares a signal with a setpoint: the signal.
+Json measured_json(const std::vector<ControllerDescription>& controllers);
+/// By controller: the margins of visit_margins() that there are, with their frequencies, and
+/// L at all of them, or `why_not`.
+Json loops_json(const LinearModel& model);
 
 }  // namespace codesign

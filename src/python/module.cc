@@ -174,7 +174,8 @@ py::tuple linearize(const Session& session, const py::object& rho, const py::dic
   Json record = Json::object();
   add_stability(model, &record);
   add_matrices(model.system, &record);
-  record["loops"] = loops_json(model, true);
+  record["measured"] = measured_json(study_of(session.problem()).controllers);
+  record["loops"] = loops_json(model);
   return py::make_tuple(py::none(), to_python(record));
 }
 

@@ -44,6 +44,8 @@ TEST(LinearizeCommand, HasMarginsAndMatricesInJson) {
   EXPECT_NEAR(servo["gain_margin"]["value"].get<double>(), 3.0, 1e-9);
   EXPECT_NEAR(servo["gain_margin"]["frequency"].get<double>(), std::sqrt(2.0), 1e-9);
   EXPECT_FALSE(servo.contains("gain_reduction"));
+  EXPECT_EQ(servo["response"]["real"].size(), servo["response"]["frequency"].size());
+  EXPECT_EQ(object["measured"], (Json{{"servo", "slide/position"}}));
   EXPECT_FALSE(object.contains("period"));
 }
 

@@ -61,6 +61,15 @@ class Linearizations(unittest.TestCase):
         margin = model.loops["elbow_servo"]["phase_margin"]
         self.assertAlmostEqual(float(np.interp(margin["frequency"], frequencies, np.abs(loop))), 1.0, 3)
         self.assertIn("stable", repr(model))
+        self.assertEqual(model.measured["elbow_servo"], "elbow/position")
+        with tempfile.TemporaryDirectory() as folder:
+            page = model.report(os.path.join(folder, "page.html"))
+            with open(os.path.join(folder, "page.html"), encoding="utf-8") as file:
+                self.assertEqual(file.read(), page)
+            with self.assertRaises(codesign.OutputError):
+                model.report(os.path.join(folder, "no", "page.html"))
+        self.assertIn("Nyquist diagram", page)
+        self.assertIn("Small motions with mechanism_codesign " + codesign.version(), page)
 
     def test_a_sampled_axis_and_faults(self):
         problem = shipped("feed_axis")
