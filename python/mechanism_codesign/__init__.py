@@ -23,6 +23,7 @@ if _TYPE_CHECKING:
     from ._errors import Status as Status
     from ._errors import Warning as Warning
     from ._linear import Linearization as Linearization
+    from ._linear import TransferFunction as TransferFunction
     from ._problem import Parameter as Parameter
     from ._problem import Problem as Problem
     from ._results import Fit as Fit
@@ -37,7 +38,7 @@ if _TYPE_CHECKING:
 _MODULES = {
     "case": "_cases", "version": "_core", "Problem": "_problem", "Parameter": "_problem",
     "ComputationError": "_errors", "InputError": "_errors", "OutputError": "_errors", "Status": "_errors", "Warning": "_errors",
-    "Linearization": "_linear",
+    "Linearization": "_linear", "TransferFunction": "_linear",
     "Fit": "_results", "FitTrial": "_results", "Number": "_results", "Result": "_results", "Run": "_results", "Stage": "_results", "Trial": "_results",
 }
 __all__ = sorted(_MODULES)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -12,6 +12,50 @@ from . import _core, _pages
 
 Array = npt.NDArray[np.float64]
 ComplexArray = npt.NDArray[np.complex128]
+
+
+class TransferFunction(NamedTuple):
+    """From one input to one output: G = gain (s - zeros[0]) ... / ((s - poles[0]) ...); of z in place of s with a period.
+
+    Poles and zeros that cancel are kept: motions that the input does not reach or that the output does not show.
+
+    zeros, poles: [1/s], or of z. gain: the first of D, CB, CAB, ... that is not zero; 0: the input does not reach the output, and there are no zeros.
+    period: [s]; None without sampled controllers. python-control takes control.zpk(zeros, poles, gain).
+    """
+    zeros: ComplexArray
+    poles: ComplexArray
+    gain: float
+    period: Optional[float]
+
+    def at(self, frequencies: "npt.ArrayLike") -> ComplexArray:
+        """G at s = j w, with a period at z = exp(j w period). @param frequencies w [rad/s]."""
+        w = np.asarray(frequencies, float)
+        s = 1j * w if self.period is None else np.exp(1j * w * self.period)
+        value: ComplexArray = self.gain * np.prod(s[..., None] - self.zeros, axis=-1) / np.prod(s[..., None] - self.poles, axis=-1)
+        return value
+
+
+def transfer_zeros(A: Array, b: Array, c: Array, d: float) -> Tuple[ComplexArray, float]:  # pylint: disable=invalid-name
+    """Zeros and gain of c (s - A)^-1 b + d.
+
+    Zeros are where the matrix [[A - s, b], [c, d]] is singular. With a number p that is none, 1/(s - p) are the eigenvalues of
+    [[A - p, b], [c, d]]^-1 [[1, 0], [0, 0]]. Those of zeros at infinity are 0: as many as d, cb, cAb, ... are 0, and one more.
+    """
+    n, rounding = len(b), 1e-12
+    moment, size, sizes, gain, infinite = b, np.abs(b), np.abs(A), d, 0
+    while gain == 0.0 and infinite < n:
+        infinite += 1
+        gain = float(c @ moment)
+        if abs(gain) <= rounding * float(np.abs(c) @ size):
+            gain = 0.0
+        moment, size = A @ moment, sizes @ size
+    if gain == 0.0:
+        return np.zeros(0, np.complex128), 0.0
+    p = 1.37 * float(np.abs(np.linalg.eigvals(A)).max(initial=0.0)) or 1.0
+    pencil = np.block([[A - p * np.eye(n), b[:, None]], [c[None, :], np.array([[d]])]])
+    roots = np.linalg.eigvals(np.linalg.solve(pencil, np.diag([1.0] * n + [0.0])))
+    finite = roots[np.argsort(-np.abs(roots))][:n - infinite]
+    return p + 1.0 / finite.astype(np.complex128), gain
 
 
 class Linearization:
@@ -56,6 +100,15 @@ class Linearization:
         """(frequencies [rad/s], L), the open loop of a controller, opened at its output. Raises KeyError for one without margins."""
         response = self._responses[controller]
         return np.array(response["frequency"], float), np.array(response["real"]) + 1j * np.array(response["imaginary"])
+
+    def transfer(self, output: str, input: str) -> TransferFunction:  # pylint: disable=redefined-builtin
+        """The transfer function of the closed loops from one of `inputs` to one of `outputs`. Raises KeyError for another name."""
+        for name, names in ((output, self.outputs), (input, self.inputs)):
+            if name not in names:
+                raise KeyError(f"{name}: not among {', '.join(names) or 'none'}")
+        row, column = self.outputs.index(output), self.inputs.index(input)
+        zeros, gain = transfer_zeros(self.A, self.B[:, column], self.C[row], float(self.D[row, column]))
+        return TransferFunction(zeros, np.linalg.eigvals(self.A).astype(np.complex128), gain, self.period)
 
     def report(self, path: "str | os.PathLike[str] | None" = None) -> str:
         """The page of `codesign report` as HTML: margins, Bode and Nyquist diagrams, poles, step responses; also written to `path` if it is given."""

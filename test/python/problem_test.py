@@ -20,6 +20,7 @@ from fixture import PENDULUM, SWING, case, command_line
 
 import mechanism_codesign as codesign
 from mechanism_codesign import _core
+from mechanism_codesign._linear import transfer_zeros
 
 
 def pendulum(study=SWING, **options):
@@ -70,6 +71,39 @@ class Linearizations(unittest.TestCase):
                 model.report(os.path.join(folder, "no", "page.html"))
         self.assertIn("Nyquist diagram", page)
         self.assertIn("Small motions with mechanism_codesign " + codesign.version(), page)
+
+    def test_transfer_functions(self):
+        # The matrices by another way: the response at each frequency from a linear solve.
+        for name, signals in (("two_link_arm", ["elbow/position", "shoulder/velocity"]), ("feed_axis", ["axis/position"])):
+            model = shipped(name).linearize(signals=signals)
+            frequencies = np.array([0.3, 2.0, 9.0])
+            points = 1j * frequencies if model.period is None else np.exp(1j * frequencies * model.period)
+            for row, output in enumerate(model.outputs):
+                for column, given in enumerate(model.inputs):
+                    transfer = model.transfer(output, given)
+                    expected = np.array([model.C[row] @ np.linalg.solve(s * np.eye(len(model.A)) - model.A, model.B[:, column])
+                                         for s in points]) + model.D[row, column]
+                    np.testing.assert_allclose(transfer.at(frequencies), expected, rtol=1e-6, atol=1e-9 * np.abs(expected).max(initial=1e-3))
+                    self.assertEqual(transfer.period, model.period)
+            with self.assertRaises(KeyError):
+                model.transfer(signals[0], "nothing/setpoint")
+
+    def test_zeros_of_a_known_plant(self):
+        # 5 (s + 2) (s - 3) / (s (s + 1) (s + 4) (s^2 + 2 s + 10)) in controllable canonical form, then in other states of other sizes.
+        bottom, top = np.poly([0.0, -1.0, -4.0, -1.0 + 3.0j, -1.0 - 3.0j]).real, 5.0 * np.poly([-2.0, 3.0])
+        A = np.diag(np.ones(4), 1)  # pylint: disable=invalid-name
+        A[-1] = -bottom[:0:-1]
+        b, c = np.eye(5)[-1], np.concatenate([top[::-1], np.zeros(2)])
+        change = np.diag([1e3, 1.0, 1e-2, 1.0, 10.0]) @ (np.eye(5) + np.diag(np.ones(4), -1))
+        A, b, c = change @ A @ np.linalg.inv(change), change @ b, c @ np.linalg.inv(change)
+        zeros, gain = transfer_zeros(A, b, c, 0.0)
+        np.testing.assert_allclose(np.sort(zeros.real), [-2.0, 3.0], rtol=1e-9)
+        self.assertAlmostEqual(gain, 5.0, 9)
+        zeros, gain = transfer_zeros(A, b, c, 0.5)
+        self.assertEqual((len(zeros), gain), (5, 0.5))
+        np.testing.assert_allclose(np.sort_complex(np.roots(np.polyadd(0.5 * bottom, top))), np.sort_complex(zeros), rtol=1e-8)
+        zeros, gain = transfer_zeros(A, b, 0.0 * c, 0.0)
+        self.assertEqual((len(zeros), gain), (0, 0.0))
 
     def test_a_sampled_axis_and_faults(self):
         problem = shipped("feed_axis")

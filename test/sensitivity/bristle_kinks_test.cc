@@ -73,7 +73,7 @@ TEST(BristleKinks, HaveGradientsOfFourDigitsByAllMethods) {
       const auto system = sticking(of, solver);
       const Evaluation result =
           evaluator_of(system).evaluate_design(system->parameters(), true, nullptr);
-      ASSERT_TRUE(result.status.ok()) << result.status.message;
+      ASSERT_TRUE(result.status.ok()) << describe(result.status);
       EXPECT_NEAR(result.objective, of.objective, 1e-6 * of.objective);
       for (int k = 0; k < 3; ++k)
         EXPECT_NEAR(result.gradient[k], of.gradient[k], 5e-5 * std::abs(of.gradient[k])) << k;
