@@ -19,7 +19,9 @@ class TransferFunction(NamedTuple):
 
     Poles and zeros that cancel are kept: motions that the input does not reach or that the output does not show.
 
-    zeros, poles: [1/s], or of z. gain: the first of D, CB, CAB, ... that is not zero; 0: the input does not reach the output, and there are no zeros.
+    zeros: shape (k,) [1/s], or of z; none where the gain is 0.
+    poles: shape (n,) [1/s], or of z.
+    gain: the first of D, CB, CAB, ... that is not zero, in the unit of the output per unit of the input; 0: the input does not reach the output.
     period: [s]; None without sampled controllers. python-control takes control.zpk(zeros, poles, gain).
     """
     zeros: ComplexArray
@@ -105,7 +107,7 @@ class Linearization:
         """The transfer function of the closed loops from one of `inputs` to one of `outputs`. Raises KeyError for another name."""
         for name, names in ((output, self.outputs), (input, self.inputs)):
             if name not in names:
-                raise KeyError(f"{name}: not among {', '.join(names) or 'none'}")
+                raise KeyError(name)
         row, column = self.outputs.index(output), self.inputs.index(input)
         zeros, gain = transfer_zeros(self.A, self.B[:, column], self.C[row], float(self.D[row, column]))
         return TransferFunction(zeros, np.linalg.eigvals(self.A).astype(np.complex128), gain, self.period)

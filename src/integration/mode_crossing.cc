@@ -110,12 +110,13 @@ std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<do
   return equations->compiled().mode_of(further);
 }
 
-// Both modes drive the motion to the guard: no step can leave it.
+// Both modes drive the motion to the guard: no step can leave it. Kinks do not hold a motion.
 Status ModeWatch::count_return(double t) {
   constexpr int kEnough = 6;
   constexpr double kAtOnce = 1e-7;  // of the duration
-  returns_ = t - last_change_ < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
-  last_change_ = t;
+  const double since = t - std::exchange(last_change_, t);
+  if (guard_ >= 0 && held_at_ != nullptr && held_at_->is_kink) return {};
+  returns_ = since < kAtOnce * system_.study().duration ? returns_ + 1 : 0;
   if (returns_ < kEnough + 2 * static_cast<int>(mode_.size())) return {};
   return {StatusCode::kSwitchHolds, t,
           "the motion is held at the switch of " + describe_switch(system_, held_at_) +
