@@ -137,6 +137,10 @@ class Recording {
   /// Later decisions at the places where `turned` is true have the outcome that is not expected, to
   /// see what else results can depend on.
   void turn(std::function<bool(unsigned place)> turned) { turned_ = std::move(turned); }
+  /// Expressions compute the sum of what their branches give, to see all that they can depend on:
+  /// evaluate_formula(). Their values mean nothing then.
+  void take_all_branches() { takes_all_branches_ = true; }
+  bool takes_all_branches() const { return takes_all_branches_; }
   /// The places of all decisions, each once, in the order of their first occurrence.
   const std::vector<unsigned>& places() const { return places_; }
   /// Makes the recording refused(): the computation branched in a way that no guard can check.
@@ -178,6 +182,7 @@ class Recording {
   std::vector<bool> followed_, held_;
   bool records_switches_ = false;
   SwitchOrigin origin_;  ///< of the next switch
+  bool takes_all_branches_ = false;
   std::vector<SwitchOrigin> switch_origins_;
   std::vector<int> noted_;
   std::function<bool(unsigned)> turned_;

@@ -88,6 +88,10 @@ struct NamedSwitches<Traced> {
  private:
   Recording* const recording_;
 };
+/// As in math/scalar.h: Recording::take_all_branches().
+inline bool takes_all_branches(const Traced& x) {
+  return !x.is_literal() && x.recording()->takes_all_branches();
+}
 inline void name_part(const Traced& x, int part) {
   if (!x.is_literal()) x.recording()->name_part(part);
 }

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <type_traits>
+#include <numeric>
 #include <vector>
 
 #include "description/expression.h"
@@ -18,6 +18,8 @@ namespace codesign {
 /// The smallest of some numbers, or with `largest` the largest.
 template <class T>
 T formula_extreme(const T* first, int count, bool largest) {
+  if (std::any_of(first, first + count, [](const T& x) { return takes_all_branches(x); }))
+    return std::accumulate(first + 1, first + count, first[0]);
   T best = first[0];
   for (int k = 1; k < count; ++k) {
     const T& one = first[k];
@@ -122,12 +124,27 @@ inline bool has_switches(const ExpressionSteps& steps) {
   });
 }
 
+/// Whether a condition may be true or false: of ranges.
+template <class T>
+bool is_open(const T&) {
+  return false;
+}
+inline bool is_open(const ValueRange& truth) { return !truth.is_number(); }
+/// What stands for the values of both branches.
+template <class T>
+T both(const T& one, const T& other) {
+  return one + other;
+}
+inline ValueRange both(const ValueRange& one, const ValueRange& other) { return hull(one, other); }
+
 /// The value of the steps from `first` to `last`, for any scalar. Comparisons and functions with
 /// branches decide by is_below(). @param stack memory for stack_size() numbers.
 template <class T>
 T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t last, In<T> variables,
                  Out<T> stack) {
   using Code = ExpressionStep::Code;
+  const bool takes_all = std::any_of(variables.begin(), variables.end(),
+                                     [](const T& x) { return takes_all_branches(x); });
   T* top = stack.data();  // past the topmost number
   for (std::size_t at = first; at < last; ++at) {
     const ExpressionStep& step = steps[at];
@@ -152,15 +169,13 @@ T evaluate_steps(const ExpressionSteps& steps, std::size_t first, std::size_t la
       case Code::kJumpUnless: {
         const T truth = *--top;
         const auto second = to_index(step.index);
-        if constexpr (std::is_same_v<T, ValueRange>) {
-          if (!truth.is_number()) {  // the values of both branches
-            const auto end = to_index(steps[second - 1].index);
-            const Out<T> rest = stack.subspan(top - stack.data(), stack.end() - top);
-            const T one = evaluate_steps<T>(steps, at + 1, second - 1, variables, rest);
-            *top++ = hull(one, evaluate_steps<T>(steps, second, end, variables, rest));
-            at = end - 1;
-            break;
-          }
+        if (takes_all || is_open(truth)) {
+          const auto end = to_index(steps[second - 1].index);
+          const Out<T> rest = stack.subspan(top - stack.data(), stack.end() - top);
+          const T one = evaluate_steps<T>(steps, at + 1, second - 1, variables, rest);
+          *top++ = both(one, evaluate_steps<T>(steps, second, end, variables, rest));
+          at = end - 1;
+          break;
         }
         if (is_zero(truth)) at = second - 1;
         break;

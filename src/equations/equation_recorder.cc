@@ -139,8 +139,9 @@ void add_rows(const System& system, const EquationRecorder& equations,
   add(rows->size() - 1, equations.g);
 }
 
-// Turned round: none, all, each place alone, all but each place. So every combination of up to
-// three places that follow one another in one law is seen, and every joint takes part at once.
+// Turned round: all, each place alone, all but each place. So every combination of up to three
+// places that follow one another in one law is seen, and every joint takes part at once.
+// Expressions, in which any number may follow one another, show all of theirs in each recording.
 void add_all_branches(const System& system, const ResidualRecording& expected,
                       std::vector<ColumnSet>* rows) {
   add_rows(system, expected.equations, rows);
@@ -149,6 +150,7 @@ void add_all_branches(const System& system, const ResidualRecording& expected,
   const auto find_more = [&](Turned turned) {
     Recording recording;
     recording.turn(std::move(turned));
+    recording.take_all_branches();
     EquationRecorder equations(system, &recording);
     equations.record_residual();
     add_rows(system, equations, rows);

@@ -268,6 +268,12 @@ struct NamedSwitches {
     static_cast<void>(x), static_cast<void>(source);
   }
 };
+/// Whether a formula is to give the sum of what its branches give; only of recordings, to see all
+/// that it can depend on.
+template <class T>
+bool takes_all_branches(const T&) {
+  return false;
+}
 /// Which part of that object decides next: the operation of an expression, a law's decision.
 template <class T>
 void name_part(const T&, int) {}

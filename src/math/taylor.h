@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -110,6 +111,9 @@ struct Taylor {
   friend bool is_below(const Taylor& x, const Taylor& y, bool likely,
                        unsigned place = place_in_source(__builtin_FILE(), __builtin_LINE())) {
     return is_below(x.c[0], y.c[0], likely, place);
+  }
+  friend bool takes_all_branches(const Taylor& x) {
+    return std::any_of(x.c.begin(), x.c.end(), [](const T& c) { return takes_all_branches(c); });
   }
   friend void name_part(const Taylor& x, int part) { name_part(x.c[0], part); }
   friend bool is_less(const Taylor& x, const Taylor& y, bool likely,

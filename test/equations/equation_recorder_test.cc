@@ -48,6 +48,27 @@ TEST(RecordPatterns, HaveRoomForEveryBranch) {
   expect_room_for_every_variant(*servo("{}"));
 }
 
+/// Which branch of nested ones an expression takes has no bound in their number.
+TEST(RecordPatterns, HaveRoomForEveryBranchOfNestedExpressions) {
+  const std::string robot_text = robot(bar("a") + hinge("j", "ground", "a", "0 0 0") + bar("b") +
+                                       hinge("k", "a", "b", "0 0 -1"));
+  for (const char* effort :
+       {"max(t, max(j/position, k/position))", "min(max(j/velocity, 1), max(k/position, t))",
+        "t > 0.1 ? (t > 0.2 ? (t > 0.3 ? j/position : k/position) : j/velocity) : (t > 0.05 ? "
+        "(t > 0.07 ? k/velocity : j/position) : (t > 0.02 ? k/position : k/velocity))",
+        "(t > 0.1 ? j/position : 2) * (t > 0.2 ? max(k/position, abs(j/velocity)) : k/velocity)"}) {
+    SCOPED_TRACE(effort);
+    const auto system = compile(robot_text, "duration: 1.0\nloads: [{joint: j, effort: \"${" +
+                                                std::string(effort) + "}\"}]\n");
+    constexpr unsigned kModes = 64;
+    for (unsigned bits = 0; bits < kModes; ++bits) {
+      std::vector<bool> mode;
+      for (unsigned k = 1; k < kModes; k *= 2) mode.push_back((bits & k) != 0);
+      EXPECT_NO_THROW(system->record_variant({}, EquationPart::kMotion, mode)) << bits;
+    }
+  }
+}
+
 }  // namespace
 
 }  // namespace codesign
