@@ -45,18 +45,25 @@ void Reference<Traced>::set(const ReferenceDescription& description,
   const auto order = [&](int k) {
     return Traced(recording, recording->timed(SourceId(description), k));
   };
-  const TimeExpression& expression = description.expression;
-  if (description.kind == ReferenceDescription::Kind::kExpression &&
-      !expression.parameters.empty()) {
-    const Traced t(recording, recording->timed(SourceId(clock_function()), 0));
-    variables_.clear();
-    for (const auto& parameter : expression.parameters)
-      variables_.push_back(parameter ? Taylor<Traced>(value_at(*parameter, parameters))
-                                     : Taylor<Traced>::time(t));
-    switching_ = expression.formula.get();
+  is_integral_ = description.kind == ReferenceDescription::Kind::kIntegral;
+  const ReferenceDescription& rate = is_integral_ ? *description.integral.rate : description;
+  if (rate.kind == ReferenceDescription::Kind::kExpression && !rate.expression.parameters.empty()) {
+    record(rate.expression, parameters);
+    if (is_integral_) motion_.value = order(0);
     return;
   }
   motion_ = {order(0), order(1), order(2), order(3)};
+}
+
+void Reference<Traced>::record(const TimeExpression& expression,
+                               const std::vector<Traced>& parameters) {
+  Recording* const recording = parameters.front().recording();
+  const Traced t(recording, recording->timed(SourceId(clock_function()), 0));
+  variables_.clear();
+  for (const auto& parameter : expression.parameters)
+    variables_.push_back(parameter ? Taylor<Traced>(value_at(*parameter, parameters))
+                                   : Taylor<Traced>::time(t));
+  switching_ = expression.formula.get();
 }
 
 ReferenceMotion<Traced> Reference<Traced>::recorded() const {
@@ -64,6 +71,7 @@ ReferenceMotion<Traced> Reference<Traced>::recorded() const {
                                  [](const auto& variable) { return !variable.c[0].is_literal(); });
   const NamedSwitches<Traced> named(time->c[0], *switching_);
   const Taylor<Traced> f = evaluate_formula<Taylor<Traced>>(switching_->steps(), variables_);
+  if (is_integral_) return {motion_.value, f.c[0], f.c[1], 2.0 * f.c[2]};
   return {f.c[0], f.c[1], 2.0 * f.c[2], 6.0 * f.c[3]};
 }
 

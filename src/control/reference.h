@@ -57,7 +57,8 @@ class Reference {
 };
 
 /// For recorded equations: a constant, inputs that are supplied for each instant
-/// (Recording::timed()), or an expression with kinks or jumps, which is recorded where it is read.
+/// (Recording::timed()), or an expression with kinks or jumps, which is recorded where it is read,
+/// as is one whose integral this is.
 template <>
 class Reference<Traced> {
  public:
@@ -70,9 +71,11 @@ class Reference<Traced> {
   ReferenceMotion<Traced> at(double) const { return switching_ ? recorded() : motion_; }
 
  private:
+  void record(const TimeExpression& expression, const std::vector<Traced>& parameters);
   ReferenceMotion<Traced> recorded() const;
 
   ReferenceMotion<Traced> motion_;
+  bool is_integral_ = false;  ///< whether the recorded expression is the rate, motion_ the value
   const Expression* switching_ = nullptr;  ///< the expression that is recorded
   std::vector<Taylor<Traced>> variables_;  ///< its dependencies
 };

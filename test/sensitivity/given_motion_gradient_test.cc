@@ -109,5 +109,35 @@ TEST(GivenMotionGradients, AgreeWithDifferencesOfIndependentRuns) {
   }
 }
 
+// A block of 1 kg whose velocity has a kink at a tuned time a = 1: its acceleration jumps there.
+TEST(GivenMotionGradients, AVelocityMayHaveAKinkAtATunedTime) {
+  struct Kink {
+    const char *velocity, *objective;
+    double value, slope;
+  };
+  for (const Kink& kink :
+       {Kink{"min(t, a)", "integral: [{signal: j/effort}]", 1.0, 1.0},
+        Kink{"t < a ? t : a", "integral: [{signal: j/effort}]", 1.0, 1.0},
+        Kink{"max(0, t - a)", "integral: [{signal: \"${j/effort^2}\"}]", 1.0, -1.0},
+        Kink{"max(0, t - a)", "integral: [{signal: j/effort, loss: absolute}]", 1.0, -1.0},
+        Kink{"min(t, a)", "terminal: [{signal: j/position, loss: absolute}]", 1.5, 1.0}})
+    for (const char* solver : {"", "method: rodas4", "method: rodas5p", "gradient: adjoint"}) {
+      SCOPED_TRACE(std::string(kink.velocity) + "; " + kink.objective + "; " + solver);
+      const GradientCase of = from_texts(
+          "kink",
+          robot(bar("a") + "<joint name='j' type='prismatic'><parent link='ground'/><child "
+                           "link='a'/><axis xyz='1 0 0'/><limit effort='0' velocity='0'/></joint>"),
+          std::string("duration: 2.0\nmotion: {j: {velocity: \"${") + kink.velocity +
+              "}\"}}\nparameters: {a: {initial: 1.0, lower: 0.1, upper: 1.9}}\nobjective: {" +
+              kink.objective + "}\nsolver: {" + solver + "}\n");
+      const auto system = make_system(of.robot, of.study);
+      const Evaluation run =
+          evaluator_of(system).evaluate_design(system->parameters(), true, nullptr);
+      ASSERT_TRUE(run.status.ok()) << describe(run.status);
+      EXPECT_NEAR(run.objective, kink.value, 1e-6);
+      EXPECT_NEAR(run.gradient[0], kink.slope, 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace codesign
