@@ -1,5 +1,7 @@
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-"""Matrices as lists of rows: what a linear system does over an interval with constant inputs."""
+"""Matrices as lists of rows: what a linear system does over an interval with constant inputs.
+
+The program is installed without numpy, which only the Python package needs; a page has few states and few intervals."""
 import math
 import operator
 

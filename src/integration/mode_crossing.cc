@@ -129,8 +129,8 @@ bool ModeWatch::is_kink(int k, Equations<double>* equations) const {
   return origin != nullptr && origin->is_kink;
 }
 
-// Both modes have the same rates there, so that the guard leaves zero in one direction and no mode
-// leads back: shorter attempts follow it, until their lengths are rounding.
+// At a kink both modes have the same rates, so that the guard leaves zero in one direction and
+// neither mode leads back: a shorter attempt shows it.
 bool ModeWatch::returns_to_kink(const Crossing& crossing, OneStep<double>* step) const {
   const double t = step->state().t, least = smallest_step(t, system_.study().duration);
   constexpr double kAtOnce = 4.0;

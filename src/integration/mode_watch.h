@@ -104,7 +104,7 @@ class ModeWatch {
   /// A guard is only touched where its rate is at most this share of its range over the attempt
   /// per second: as sharp as its sign is known within kRounding.
   static constexpr double kGrazing = 1e-4;
-  /// Length of an attempt, in smallest steps, that passes a kink to which the motion returns.
+  /// An attempt of at most so many smallest steps is accepted although it crosses a kink again.
   static constexpr double kShortest = 1e4;
   /// Points at which guards are evaluated after the start of a step: at least so many, and so many
   /// in the duration of the study; more where show_turns() asks for them.
@@ -139,8 +139,8 @@ class ModeWatch {
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   /// Whether nothing jumps at a switch of the mode, whatever its guard is: a kink by its form.
   bool is_kink(int k, Equations<double>* equations) const;
-  /// Whether a kink is crossed where the attempt begins, at which its mode was just changed: the
-  /// attempt is longer than its guard is known.
+  /// Whether the attempt crosses a kink at its very beginning, where the mode was just changed: it
+  /// is too long to follow the guard.
   bool returns_to_kink(const Crossing& crossing, OneStep<double>* step) const;
   bool is_touched(double rate) const { return !(std::abs(rate) > kTouched * guard_pace_); }
   void look_for_touch(int k, double place, double value, OneStep<double>* step);

@@ -87,11 +87,7 @@ TEST(Engine, AResultDoesNotDependOnWhatItsWorkerDidBefore) {
 }
 
 TEST(Engine, WhatSwitchesDoesNotDependOnWhatItsWorkerDidBefore) {
-  const Problem problem = block(R"(
-runs: {slow: {}, fast: {initial_state: {slide: {velocity: 2.0}}}}
-uncertain: {mu: {uniform: [0.2, 0.4]}, friction_law: {choice: [brown_mcphee, gonthier]}}
-robust: {samples: 4}
-)");
+  const Problem problem = block(kRunsAndLaws);
   std::vector<EvaluationTask> all;
   for (const Scenario& scenario : make_scenarios(problem))
     all.push_back({scenario.system, scenario.parameters(problem.start()), gradient_if(true)});

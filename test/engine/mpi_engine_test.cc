@@ -75,11 +75,7 @@ TEST(MpiEngine, EventsAndEndsOfRunsAreTheSameByThreadsAndRanks) {
 }
 
 TEST(MpiEngine, RunsAndLawsAreSystemsOfTheirOwnOnEveryRank) {
-  const Problem problem = block(R"(
-runs: {slow: {}, fast: {initial_state: {slide: {velocity: 2.0}}}}
-uncertain: {mu: {uniform: [0.2, 0.4]}, friction_law: {choice: [brown_mcphee, gonthier]}}
-robust: {samples: 4}
-)");
+  const Problem problem = block(kRunsAndLaws);
   const Ensemble alone(problem);
   RankJob job(3);
   const Ensemble spread(problem, 1, {nullptr, nullptr, job.ranks()});

@@ -5,6 +5,12 @@
 
 namespace codesign {
 
+const char* const kRunsAndLaws = R"(
+runs: {slow: {}, fast: {initial_state: {slide: {velocity: 2.0}}}}
+uncertain: {mu: {uniform: [0.2, 0.4]}, friction_law: {choice: [brown_mcphee, gonthier]}}
+robust: {samples: 4}
+)";
+
 Problem block(const std::string& ensemble, const std::string& optimizer,
               const std::string& parameters) {
   const SourceText urdf{"block.urdf",

@@ -14,4 +14,8 @@ namespace codesign {
 Problem block(const std::string& ensemble, const std::string& optimizer = "{algorithm: slsqp}",
               const std::string& parameters = "");
 
+/// Further blocks of its study: two runs at four samples, whose laws of friction differ. Each run
+/// and law is a system of its own, and those of one law switch.
+extern const char* const kRunsAndLaws;
+
 }  // namespace codesign
