@@ -28,8 +28,10 @@ void move(const State<double>& from, const State<double>& rates, double h, State
 // As near behind the crossing as its guard has another sign: the mode that the motion enters. The
 // dense output goes on a little beyond the end of the step.
 std::vector<bool> ModeWatch::mode_beyond(const Crossing& crossing, OneStep<double>* step) {
-  constexpr double kNearest = 1e-9, kFarther = 10.0;
-  for (double distance = kNearest; distance < 1.0; distance *= kFarther) {
+  constexpr double kFarther = 10.0;
+  constexpr int kDecades = 9;
+  double distance = 1e-9;
+  for (int k = 0; k < kDecades; ++k, distance *= kFarther) {
     const double place = std::min(1.0 + kBeyond, crossing.to + distance);
     if (side_at(crossing.guard, place, step) >= 0.0) continue;
     std::vector<bool> mode = step->equations().compiled().mode_of(point_);
