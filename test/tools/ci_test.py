@@ -91,7 +91,7 @@ SKIPPED = r"^(tools_(check|clone|doc)|panel_page|.*_panel\.test)$"
 PLAIN = ["setup called: --headless", "build called: all tests", "test called: ", "setup called: --headless --checks --pages", "test called: -R " + SKIPPED,
          "check called: format layering scripts", "tour called: --built --quick", "check called: tidy", "sanitize called: thread"]
 SANITIZED = ["setup called: ", "build called: all", "demo called: ", "test called: --release",
-             "sanitize called: address --report build/test_results/sanitized.xml"]
+             "sanitize called: address --quick --report build/test_results/sanitized.xml"]
 
 
 class ToolsCiTest(unittest.TestCase):
@@ -124,7 +124,7 @@ class ToolsCiTest(unittest.TestCase):
                          [f"tools/ci: no time was left for: {words}" for words in
                           ("env -u CI tools/test -R " + SKIPPED, "tools/check format layering scripts", "tools/tour --built --quick", "tools/check tidy",
                            "tools/sanitize thread", "env -u CI tools/test --release",
-                           "tools/sanitize address --report build/test_results/sanitized.xml")])
+                           "tools/sanitize address --quick --report build/test_results/sanitized.xml")])
 
 
 if __name__ == "__main__":
