@@ -13,6 +13,7 @@ SAMPLES = np.linspace(0.0, 1.0, 13)  # of sides within a step
 AT_ONCE = 1e-9  # of the duration: events nearer than that are one instant
 TANGENT = 1e-5  # of the rate a side's size has over the duration: slower crossings graze
 PER_RUN = 40  # steps at least
+LARGEST = 1e5  # state that is no motion of a mechanism of metres and kilograms any more: it may be infinite within the run
 
 
 def first(values):
@@ -116,6 +117,8 @@ class Motion:
             if failure:
                 raise Doubt(failure)
             self.last_step = solver.t - before
+            if np.max(np.abs(solver.y[:self.n])) > LARGEST:
+                raise Doubt(f"the motion runs away at t = {solver.t}")
             time, key = self.first_fall(before, solver.t - before, solver.dense_output(), mode)
             if key is not None:
                 return *self.polish(before, time, y, mode, key), key

@@ -59,6 +59,11 @@ class EventSolver(unittest.TestCase):
         with self.assertRaisesRegex(Doubt, "held"):
             Motion(study(sign(V) * -3.0, [(X, 0.0)], start=(0.0, 1.0))).run()
 
+    def test_a_motion_that_runs_away_ends(self):
+        """v' = v^2 is infinite at t = 1 / v(0)."""
+        with self.assertRaisesRegex(Doubt, r"runs away at t = 0\.9999"):
+            Motion(study(V * V, [(X, 0.0)], start=(0.0, 1.0))).run()
+
 
 if __name__ == "__main__":
     unittest.main()
