@@ -74,6 +74,8 @@ class Formulas {
   /// Loads the state that the functions below read. @param state must stay alive and unchanged
   /// while they are called.
   void load(const State<T>& state);
+  /// The value of a signal, in SI units.
+  T signal(const Signal& signal) const;
   /// The motion of a body; -1 is the ground.
   const BodyKinematics<T>& body(int index) const { return view_.body(index); }
   /// The motion of a joint coordinate, theory (8). @param element index in the pair's chain.

@@ -150,6 +150,11 @@ void Formulas<T>::watch_switches(const State<T>& state) {
 template <class T>
 T Formulas<T>::signal(const Signal& signal, const State<T>& state) {
   load(state);
+  return this->signal(signal);
+}
+
+template <class T>
+T Formulas<T>::signal(const Signal& signal) const {
   return signal_value(view_, signal);
 }
 

@@ -123,7 +123,7 @@ void Observer::observe(const State<double>& state, double objective, const Vecto
   observe_links(positions, equations, frame);
   frame->signals.resize(signals_.size());
   for (std::size_t k = 0; k < signals_.size(); ++k)
-    frame->signals[k] = equations->formulas().signal(signals_[k], state);
+    frame->signals[k] = equations->formulas().signal(signals_[k]);
 }
 
 // A joint below which nothing has mass has no row of motion; if it mimics another joint, its

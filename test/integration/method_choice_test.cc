@@ -118,6 +118,55 @@ TEST(MethodChoice, BeginsImplicitlyWithDryFrictionAndReturnsWhereItIsNotStiff) {
   EXPECT_EQ(steps[0], 1);
 }
 
+/// A chain of hinges that swings in its plane.
+std::string hanging_chain(int links) {
+  std::string model = "<robot name='chain'><link name='link0'/>";
+  for (int k = 1; k <= links; ++k) {
+    const std::string own = std::to_string(k), parent = std::to_string(k - 1);
+    model += "<link name='link" + own +
+             "'><inertial><origin xyz='0 0 -0.05'/><mass value='1'/><inertia ixx='0.001' "
+             "iyy='0.001' izz='0.0005' ixy='0' ixz='0' iyz='0'/></inertial></link><joint "
+             "name='hinge" +
+             own + "' type='continuous'><parent link='link" + parent + "'/><child link='link" +
+             own + "'/><origin xyz='0 0 " + (k == 1 ? "0" : "-0.1") +
+             "'/><axis xyz='0 1 0'/></joint>";
+  }
+  return model + "</robot>";
+}
+
+// The pair takes about twice as many steps there, and each costs more.
+TEST(MethodChoice, AChainWhoseExplicitStagesFactorAMatrixGoesOnImplicitlyAfterATrial) {
+  const GradientCase test = from_texts(
+      "chain", hanging_chain(30),
+      "duration: 0.5\ninitial_state: {hinge1: {position: 0.5}}\nobjective: {integral: [{signal: "
+      "hinge1/position}]}\n");
+  const auto system = test.compile("auto", "direct"), pair = test.compile("dopri5", "direct");
+  const std::vector<int> steps = changes(*system);
+  ASSERT_FALSE(steps.empty());
+  EXPECT_EQ(steps[0], 25);
+  Simulation chosen = simulation_of(system, system->parameters()),
+             explicitly = simulation_of(pair, pair->parameters());
+  ASSERT_TRUE(chosen.start().ok() && chosen.advance(0.5).ok());
+  ASSERT_TRUE(explicitly.start().ok() && explicitly.advance(0.5).ok());
+  EXPECT_LT(chosen.statistics().steps, 0.8 * explicitly.statistics().steps);
+  EXPECT_LT(chosen.statistics().explicit_steps, 0.3 * chosen.statistics().steps);
+  EXPECT_NEAR(chosen.objective(), explicitly.objective(), 1e-6 * explicitly.objective());
+}
+
+// Absolute coordinates have no program for accelerations; the pair's steps are the longer ones.
+TEST(MethodChoice, ThePairGoesOnWhereItsStepsAreLongEnough) {
+  GradientCase test = from_texts(
+      "chain", hanging_chain(6),
+      "duration: 3\ninitial_state: {hinge2: {position: 0.5}}\nobjective: {integral: [{signal: "
+      "hinge1/position}]}\n");
+  test.study.solver.coordinates = CoordinatesKind::kAbsolute;
+  const auto system = test.compile("auto", "direct");
+  Simulation simulation = simulation_of(system, system->parameters());
+  ASSERT_TRUE(simulation.start().ok() && simulation.advance(3.0).ok());
+  EXPECT_GT(simulation.methods().size(), 2U);
+  EXPECT_GT(simulation.statistics().explicit_steps, 0.7 * simulation.statistics().steps);
+}
+
 TEST(MethodChoice, LoopsThatShareReactionsStayImplicit) {
   const auto system = compile(
       four_bar(), motion_study(0.5, "{left_hinge: {position: 0.4}}", "left_hinge/velocity", "{}"));
