@@ -64,14 +64,18 @@ std::vector<bool> ModeWatch::beyond(int guard) const {
 // just before the crossing.
 std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, OneStep<double>* step) {
   constexpr double kBefore = 1e-6;
-  constexpr int kMost = 64;
   step->interpolate_attempt(std::max(0.0, crossing.to - kBefore), &point_);
-  Equations<double>& equations = step->equations();
-  std::vector<bool> mode = beyond(crossing.guard);
+  return beyond_alone(crossing.guard, point_, &step->equations());
+}
+
+std::vector<bool> ModeWatch::beyond_alone(int guard, const State<double>& at,
+                                          Equations<double>* equations) {
+  constexpr int kMost = 64;
+  std::vector<bool> mode = beyond(guard);
   const auto wrong = [&] {
-    equations.hold(mode);
-    equations.compiled().switches(point_, &residual_, &right_);
-    for (int k = crossing.guard + 1; k < static_cast<int>(mode.size()); ++k)
+    equations->hold(mode);
+    equations->compiled().switches(at, &residual_, &right_);
+    for (int k = guard + 1; k < static_cast<int>(mode.size()); ++k)
       if (mode[to_index(k)] != (residual_[k] > 0.0)) return k;
     return -1;
   };
@@ -81,7 +85,7 @@ std::vector<bool> ModeWatch::mode_of_one(const Crossing& crossing, OneStep<doubl
     begun.push_back(!mode[to_index(k)]);
     mode = system_.record_variant({}, EquationPart::kMotion, begun)->mode();
   }
-  equations.hold(mode_);
+  equations->hold(mode_);
   return mode;
 }
 
@@ -172,7 +176,38 @@ int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equatio
   return -1;
 }
 
-// Guards that jump with the rates belong to the same change and the same instant.
+// The guard at which the motion rests and which its acceleration leaves for the other side, such as
+// one of a position where a load begins; -1 if there is none. Its own crossing would come at once,
+// at a rate of zero. Its value goes with the square of the time, unlike that of a guard with an
+// instant of its own, which another design moves.
+int ModeWatch::left_guard(const ModeChange& change, Equations<double>* equations) {
+  constexpr double kSmall = 1e-3, kQuadratic = 0.35;
+  const double duration = system_.study().duration,
+               h = std::max(1e-6 * duration, kSmall * step_size_);
+  const auto guards_after = [&](double time, VectorX<double>* guards) {
+    const State<double>& at = change.behind;
+    const auto accelerations = at.z.head(system_.layout().n);
+    point_ = at;
+    point_.q += time * (at.v + 0.5 * time * accelerations);
+    point_.v += time * accelerations;
+    point_.s += time * at.z.tail(system_.layout().states);
+    point_.t += time;
+    equations->compiled().switches(point_, guards, &right_);
+  };
+  VectorX<double> now;
+  guards_after(0.0, &now);
+  guards_after(0.5 * h, &residual_);
+  guards_after(h, &ahead_);
+  for (int k = 0; k < static_cast<int>(mode_.size()); ++k)
+    if (const double beyond = side(k, ahead_);
+        beyond < 0.0 && std::abs(now[k]) <= kSmall * std::abs(beyond) &&
+        side(k, residual_) > kQuadratic * beyond && !is_kink(k, equations))
+      return k;
+  return -1;
+}
+
+// Guards that jump with the rates belong to the same change and the same instant, as do those that
+// the motion leaves from rest.
 Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeChange* change) {
   for (std::size_t turn = 0;; ++turn) {
     mode_ = change->mode;
@@ -180,8 +215,14 @@ Status ModeWatch::enter(Assembly* assembly, Equations<double>* equations, ModeCh
     change->behind = change->before;
     if (Status status = assembly->rates().solve(equations, &change->behind); !status.ok())
       return status;
-    const int jumped = turn < mode_.size() ? jumped_guard(*change, equations) : -1;
-    if (jumped < 0) return {};
+    if (turn >= mode_.size()) return {};
+    const int jumped = jumped_guard(*change, equations);
+    if (jumped < 0) {
+      const int left = left_guard(*change, equations);
+      if (left < 0) return {};
+      change->mode = beyond_alone(left, change->behind, equations);
+      continue;
+    }
     std::vector<bool> begun(mode_.begin(), mode_.begin() + jumped);
     begun.push_back(!mode_[to_index(jumped)]);
     begun.insert(begun.end(), mode_.begin() + jumped + 1, mode_.end());

@@ -151,9 +151,12 @@ class ModeWatch {
   std::vector<bool> beyond(int guard) const;
   std::vector<bool> mode_beyond(const Crossing& crossing, OneStep<double>* step);
   std::vector<bool> mode_of_one(const Crossing& crossing, OneStep<double>* step);
+  /// Only this guard is beyond zero; those after it are as they are at a state.
+  std::vector<bool> beyond_alone(int guard, const State<double>& at, Equations<double>* equations);
   bool is_alone(int guard) const;
   Status enter(Assembly* assembly, Equations<double>* equations, ModeChange* change);
   int jumped_guard(const ModeChange& change, Equations<double>* equations);
+  int left_guard(const ModeChange& change, Equations<double>* equations);
   std::vector<bool> mode_behind(const State<double>& at, const State<double>& rates,
                                 Equations<double>* equations) const;
 

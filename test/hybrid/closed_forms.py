@@ -65,6 +65,7 @@ SPRING = [("body", "slide", "prismatic", "1 0 0", body(),
            '<codesign:torsion_spring stiffness="1" codesign:stiffness="${k}" damping="0.1" codesign:damping="${b}"/>')]
 BALL = [("carriage", "rise", "prismatic", "0 0 1", body(), ""), ("ball", "run", "prismatic", "1 0 0", body(), "")]
 CRANK = [("wheel", "crank", "continuous", "0 0 1", body("10", "5").replace('izz="5"', 'izz="5" codesign:izz="${J}"'), "")]
+ARM = [("arm", "pivot", "continuous", "0 1 0", body(moment="0.84", place="0 0 -0.4"), "")]  # its moment about the pivot is 1
 ROD = [("rod", "pivot", "continuous", "0 1 0", body(place="0 0 -0.4", also=' codesign:xyz="0 0 ${-arm}"'), "")]
 
 
@@ -161,6 +162,13 @@ def held_pendulum(goal, arm):
     return (integrated(lambda x, v: (20.0 * (goal - x) - 2.0 * v - 9.81 * arm * cmath.sin(x)) / (arm * arm + 0.01), 0.0, 0.0, 3.0, 1e-2)[0] - 0.5) ** 2
 
 
+def leaves_a_step(x0, d, k, F, duration=1.5):
+    """-k n - F on the n-th step down, the first from the first instant on"""
+    first, then = -k - F, -2.0 * k - F
+    time = cmath.sqrt(-2.0 * d / first)
+    return after(x0, 0.0, [(first, time), (then, duration - time)]) ** 2
+
+
 def kick(effort):
     """a study of one slide under a load for 2 s, its position at the end squared"""
     return f'duration: 2\nloads: [{{joint: slide, effort: "${{{effort}}}"}}]\nobjective: {{terminal: [{{signal: slide/position}}]}}'
@@ -202,6 +210,18 @@ AT_STATES = [
                {"k": (10, 1, 1000), "gap": (0.3, 0.1, 1), "v0": (1, 0.1, 3)}, lambda **numbers: behind_a_gap(duration=0.8, **numbers)),
     ClosedForm("a bounce on a stiff spring behind a gap", SLIDE, moving("-k*max(0, slide/position - gap)", '{velocity: "${v0}"}', 1),
                {"k": (1e6, 1e5, 1e7), "gap": (0.3, 0.1, 1), "v0": (1, 0.1, 3)}, lambda **numbers: behind_a_gap(duration=1.0, **numbers)),
+    ClosedForm("a start at rest at a step of the load", SLIDE, moving("k*floor((slide/position - x0)/d) - F", '{position: "${x0}"}', 1.5),
+               {"x0": (0.3, 0, 1), "d": (0.25, 0.2, 0.3), "k": (-1, -2, -0.5), "F": (1.5, 1, 2)}, leaves_a_step),
+    ClosedForm("the same of a hinge", ARM, """
+duration: 1.5
+gravity: [0, 0, 0]
+initial_state: {pivot: {position: "${x0}"}}
+loads: [{joint: pivot, effort: "${k*floor((pivot/position - x0)/d) - F}"}]
+objective: {terminal: [{signal: pivot/position}]}""", {"x0": (0.3, 0, 1), "d": (0.25, 0.2, 0.3), "k": (-1, -2, -0.5), "F": (1.5, 1, 2)}, leaves_a_step),
+    ClosedForm("a step of the load where a motion begins at a tuned time", SLIDE,
+               moving("t < ts ? 0 : k*floor((slide/position - x0)/d) - F", '{position: "${x0}"}', 1.8),
+               {"ts": (0.3, 0.1, 0.5), "x0": (0.3, 0, 1), "d": (0.25, 0.2, 0.3), "k": (-1, -2, -0.5), "F": (1.5, 1, 2)},
+               lambda ts, **numbers: leaves_a_step(duration=1.8 - ts, **numbers)),
     ClosedForm("dry friction that a force overcomes", SLIDE, moving("-c*sign(slide/velocity) - F", '{velocity: "${v0}"}'),
                {"c": (0.5, 0, 0.9), "F": (1, 0.95, 2), "v0": (1, 0.1, 3)},
                lambda c, F, v0: after(0.0, v0, [(-F - c, v0 / (F + c)), (-F + c, 2.0 - v0 / (F + c))]) ** 2),

@@ -13,7 +13,8 @@ SAMPLES = np.linspace(0.0, 1.0, 13)  # of sides within a step
 AT_ONCE = 1e-9  # of the duration: events nearer than that are one instant
 TANGENT = 1e-5  # of the rate a side's size has over the duration: slower crossings graze
 PER_RUN = 40  # steps at least
-LARGEST = 1e5  # state that is no motion of a mechanism of metres and kilograms any more: it may be infinite within the run
+MOST_STEPS = 5000  # in a run: more take minutes, for a motion that turns ever faster
+LARGEST = 1e10  # beyond the maximum_speed of random studies: the motion becomes infinite within the run
 
 
 def first(values):
@@ -34,7 +35,7 @@ class Motion:
         directions = np.eye(self.p) * 1j * STEP
         self.parameters = {name: model.values[k] + directions[k] for k, name in enumerate(model.names)}
         self.numbers = {name: np.array([float(model.values[k])]) for k, name in enumerate(model.names)}
-        self.events, self.largest, self.last_step = [], {}, 0.0
+        self.events, self.largest, self.last_step, self.steps = [], {}, 0.0, 0
 
     def columns(self, extended):
         return extended[:self.n, None] + 1j * STEP * extended[self.n:].reshape(self.n, self.p)
@@ -117,7 +118,8 @@ class Motion:
             if failure:
                 raise Doubt(failure)
             self.last_step = solver.t - before
-            if np.max(np.abs(solver.y[:self.n])) > LARGEST:
+            self.steps += 1
+            if np.max(np.abs(solver.y[:self.n])) > LARGEST or self.steps > MOST_STEPS:
                 raise Doubt(f"the motion runs away at t = {solver.t}")
             time, key = self.first_fall(before, solver.t - before, solver.dense_output(), mode)
             if key is not None:
