@@ -102,10 +102,7 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   fit.start = variables.start();
   fit.lower = variables.lower();
   fit.upper = variables.upper();
-  if (const Eigen::VectorXd prior = variables.prior_deviations(); prior.array().isFinite().any()) {
-    fit.prior = prior;
-    fit.known = fit.start;
-  }
+  fit.prior = variables.prior();
   fit.loss = study_of(problem).identification->loss;
   fit.max_evaluations = problem.optimizer_options().max_evaluations;
   fit.relative_tolerance = problem.optimizer_options().relative_tolerance;

@@ -122,6 +122,11 @@ std::vector<EffortDoubt> doubts_despite_fit(const IdentificationDescription& opt
   return left;
 }
 
+/// Whether most points of a fit could not be evaluated.
+bool is_fit_hindered(const IdentificationResult& result) {
+  return 2 * result.failed_evaluations > result.evaluations;
+}
+
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
                    IdentificationResult* result) {
   for (Eigen::Index k = 0; k < variables.size(); ++k) {
@@ -260,13 +265,25 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     const auto doubt = std::find_if(doubts.begin(), doubts.end(),
                                     [&joint](const EffortDoubt& of) { return of.joint == joint; });
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
-    const std::string sentence =
-        "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
-        fit.joint + ": sign, unit, order?" +
-        (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
-        (mistake.empty() ? "" : " " + mistake);
+    const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
+               is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
+    const std::string share =
+        fit.explained > 0.0 ? readable(100.0 * fit.explained, 2) + " % of " : "nothing of ";
+    const std::string why =
+        is_filter ? " " + mistake
+        : is_hindered
+            ? " most of its points could not be evaluated, so that it may have ended "
+              "before an optimum"
+            : " sign, unit, order?" +
+                  (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":"
+                                                 : std::string()) +
+                  (mistake.empty() ? "" : " " + mistake);
+    const std::string sentence = "the fit explains " + share + fit.joint + ":" + why;
     const std::string allowed =
-        is_motion
+        is_filter ? "at least half; a cutoff above the frequencies of the motion"
+        : is_hindered
+            ? "at least half; bounds or twins that leave such points out, or another start"
+        : is_motion
             ? "at least half; positions in rad or m along the axis of the joint, efforts on the "
               "child in N m or N along the same axis, "
               "and the controllers and loads that drove the recording"
@@ -298,7 +315,7 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
         {options.where, "optimizer.max_evaluations",
          "the fit ended before it reached an optimum; its numbers are those of the best point",
          std::to_string(result.evaluations), "more evaluations, or a larger relative_tolerance"}));
-  if (2 * result.failed_evaluations > result.evaluations)
+  if (is_fit_hindered(result))
     warnings.push_back(warn(
         "fit_hindered",
         {options.where, "identify",
