@@ -8,6 +8,7 @@
 
 #include "identification/fit/inertial_numbers.h"
 #include "math/arrays.h"
+#include "math/dense.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
@@ -213,6 +214,18 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }
 
+bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossOptions& loss,
+                      const IdentificationResult& result) {
+  if (prior.empty()) return false;
+  const std::vector<int> columns = free_columns(result);
+  const Identifiability found =
+      find_identifiable(weighted_columns(fit, loss, {}, columns).jacobian);
+  if (found.dependent.empty()) return true;
+  const Eigen::MatrixXd slopes = prior.jacobian(fit.x)(Eigen::all, columns);
+  return find_identifiable(upper_factor(product(slopes, found.null_directions))).rank ==
+         static_cast<int>(found.dependent.size());
+}
+
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result) {
@@ -267,18 +280,17 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
     const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
                is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
-    const std::string share =
-        fit.explained > 0.0 ? readable(100.0 * fit.explained, 2) + " % of " : "nothing of ";
-    const std::string why =
-        is_filter ? " " + mistake
-        : is_hindered
-            ? " most of its points could not be evaluated, so that it may have ended "
-              "before an optimum"
-            : " sign, unit, order?" +
-                  (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":"
-                                                 : std::string()) +
-                  (mistake.empty() ? "" : " " + mistake);
-    const std::string sentence = "the fit explains " + share + fit.joint + ":" + why;
+    std::string sentence =
+        "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
+        fit.joint + ": sign, unit, order?" +
+        (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
+        (mistake.empty() ? "" : " " + mistake);
+    if (is_filter) sentence = "the fit does not explain " + fit.joint + ": " + mistake;
+    if (is_hindered)
+      sentence =
+          "most points of the fit could not be evaluated, and the best of the others explains less "
+          "than half of " +
+          fit.joint;
     const std::string allowed =
         is_filter ? "at least half; a cutoff above the frequencies of the motion"
         : is_hindered

@@ -10,9 +10,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
-InertiaBlock block(int first, double weight) {
+InertiaBlock relative_block(int first, double weight) {
   InertiaBlock block;
   for (int k = 0; k < 10; ++k) block.columns[static_cast<std::size_t>(k)] = first + k;
   block.matrix.setIdentity();
@@ -31,9 +31,9 @@ TEST(InertiaStep, ReachesTheBorder) {
                                   eigen.eigenvectors().transpose();
   const SymmetricNumbers from = symmetric_numbers(Eigen::Matrix4d::Identity());
   for (const double weight : {1e-2, 1e-5, 1e-8}) {
-    const std::vector<InertiaBlock> blocks{block(0, weight)};
+    const std::vector<InertiaBlock> blocks{relative_block(0, weight)};
     const Eigen::VectorXd gradient = 2.0 * (from - target),
-                          none = Eigen::VectorXd::Constant(10, kInfinity);
+                          none = Eigen::VectorXd::Constant(10, kNoBound);
     const Eigen::MatrixXd root = Eigen::MatrixXd::Identity(10, 10);
     const InertiaStep step(gradient, root, blocks, -none, none);
     EXPECT_LT((step.matrix(0) - nearest).norm(), 4.0 * weight + 2.0 * std::sqrt(weight)) << weight;
@@ -46,27 +46,27 @@ TEST(InertiaStep, ReachesTheBorder) {
 }
 
 /// Two inertias and six bounded variables, of which fewer rows than unknowns are known.
-struct Mixed {
-  Mixed() {
+struct MixedStep {
+  MixedStep() {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     root = Eigen::MatrixXd::NullaryExpr(22, 26, [&] { return normal(random); });
     root.leftCols(6) *= 100.0;
     gradient = 2.0 * root.transpose() *
                Eigen::VectorXd::NullaryExpr(22, [&] { return 10.0 * normal(random); });
-    lower = Eigen::VectorXd::Constant(26, -kInfinity);
-    upper = Eigen::VectorXd::Constant(26, kInfinity);
+    lower = Eigen::VectorXd::Constant(26, -kNoBound);
+    upper = Eigen::VectorXd::Constant(26, kNoBound);
     lower.head(6).setConstant(-0.02);
     upper.head(6).setConstant(0.01);
     upper[1] = 0.0;
   }
   Eigen::MatrixXd root;
   Eigen::VectorXd gradient, lower, upper;
-  std::vector<InertiaBlock> blocks{block(6, 0.05), block(16, 0.05)};
+  std::vector<InertiaBlock> blocks{relative_block(6, 0.05), relative_block(16, 0.05)};
 };
 
 TEST(InertiaStep, MeetsTheConditionsOfOptimality) {
-  const Mixed problem;
+  const MixedStep problem;
   const InertiaStep step(problem.gradient, problem.root, problem.blocks, problem.lower,
                          problem.upper);
   const Eigen::VectorXd& p = step.step();
@@ -96,7 +96,7 @@ TEST(InertiaStep, MeetsTheConditionsOfOptimality) {
 }
 
 TEST(InertiaStep, PredictsItsDecrease) {
-  const Mixed problem;
+  const MixedStep problem;
   const InertiaStep step(problem.gradient, problem.root, problem.blocks, problem.lower,
                          problem.upper);
   const Eigen::VectorXd& p = step.step();
