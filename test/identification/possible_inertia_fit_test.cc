@@ -271,7 +271,8 @@ TEST(PossibleInertiaFit, EndsEarlierWithALargerTolerance) {
   const IdentificationResult fine = identify(tight.problem(), tight.recordings(), {}, nullptr),
                              coarse = identify(loose.problem(), loose.recordings(), {}, nullptr);
   EXPECT_LT(coarse.evaluations, fine.evaluations);
-  EXPECT_LE(least_cost(tight, fine.data) * (1.0 - 1e-6), fine.samples * kArmLinks);
+  EXPECT_LE(least_cost(tight, fine.data) * (1.0 - 1e-6),
+            static_cast<double>(fine.samples * kArmLinks));
 }
 
 }  // namespace

@@ -107,7 +107,7 @@ TEST(InertiaSearch, FindsNumbersThatAreNotLinearToo) {
 TEST(InertiaSearch, AProductOfInertiaAndGainIsFound) {
   BodyAndDecay source(true_numbers(1.5));
   FitProblem problem = body_and_decay(1.0, 0.5);
-  problem.upper[10] = 2.0;
+  problem.upper[10] = 50.0;
   problem.prior.inertias[0].mass = 1e-3;  // and the mass at the start: e^1.4 times too small
   const ResidualFit fit = fit_residuals(problem, &source);
   ASSERT_TRUE(fit.status.ok()) << fit.status.cause;

@@ -10,7 +10,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 InertiaBlock relative_block(int first, double weight) {
   InertiaBlock block;
@@ -33,7 +33,7 @@ TEST(InertiaStep, ReachesTheBorder) {
   for (const double weight : {1e-2, 1e-5, 1e-8}) {
     const std::vector<InertiaBlock> blocks{relative_block(0, weight)};
     const Eigen::VectorXd gradient = 2.0 * (from - target),
-                          none = Eigen::VectorXd::Constant(10, kNoBound);
+                          none = Eigen::VectorXd::Constant(10, kUnbounded);
     const Eigen::MatrixXd root = Eigen::MatrixXd::Identity(10, 10);
     const InertiaStep step(gradient, root, blocks, -none, none);
     EXPECT_LT((step.matrix(0) - nearest).norm(), 4.0 * weight + 2.0 * std::sqrt(weight)) << weight;
@@ -54,8 +54,8 @@ struct MixedStep {
     root.leftCols(6) *= 100.0;
     gradient = 2.0 * root.transpose() *
                Eigen::VectorXd::NullaryExpr(22, [&] { return 10.0 * normal(random); });
-    lower = Eigen::VectorXd::Constant(26, -kNoBound);
-    upper = Eigen::VectorXd::Constant(26, kNoBound);
+    lower = Eigen::VectorXd::Constant(26, -kUnbounded);
+    upper = Eigen::VectorXd::Constant(26, kUnbounded);
     lower.head(6).setConstant(-0.02);
     upper.head(6).setConstant(0.01);
     upper[1] = 0.0;
@@ -83,13 +83,17 @@ TEST(InertiaStep, MeetsTheConditionsOfOptimality) {
   EXPECT_LT(slope.tail(20).norm(), 1e-6 * scale);
   int on_bound = 0;
   for (int k = 0; k < 6; ++k) {
-    if (p[k] == problem.lower[k]) EXPECT_GT(slope[k], 0.0) << k;
-    if (p[k] == problem.upper[k]) EXPECT_LT(slope[k], 0.0) << k;
-    on_bound += p[k] == problem.lower[k] || p[k] == problem.upper[k] ? 1 : 0;
-    if (p[k] > problem.lower[k] && p[k] < problem.upper[k])
-      EXPECT_LT(std::abs(slope[k]), 1e-6 * scale) << k;
     EXPECT_GE(p[k], problem.lower[k]);
     EXPECT_LE(p[k], problem.upper[k]);
+    const bool is_low = p[k] == problem.lower[k], is_high = p[k] == problem.upper[k];
+    on_bound += is_low || is_high ? 1 : 0;
+    if (is_low) {
+      EXPECT_GT(slope[k], 0.0) << k;
+    } else if (is_high) {
+      EXPECT_LT(slope[k], 0.0) << k;
+    } else {
+      EXPECT_LT(std::abs(slope[k]), 1e-6 * scale) << k;
+    }
   }
   EXPECT_GT(on_bound, 0);
   EXPECT_GT(step.decrease(), 0.0);
