@@ -36,9 +36,10 @@ Eigen::VectorXd about_mean_of(const Eigen::VectorXd& recorded) {
 /// Viscous and dry friction and a rotor, per unit; rows x 3.
 Eigen::MatrixXd drive_line_columns(const Eigen::VectorXd& velocity,
                                    const Eigen::VectorXd& acceleration) {
-  constexpr double kSlow = 0.1;
+  constexpr double kSlowShare = 0.1;
   const double slow = std::max(
-      kSlow * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())), 1e-300);
+      kSlowShare * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())),
+      1e-300);
   Eigen::MatrixXd columns(velocity.size(), 3);
   columns << velocity, (velocity.array() / slow).tanh().matrix(), acceleration;
   return columns;
