@@ -329,7 +329,9 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
         ((spreads - fit.spreads).array().abs() <=
          spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
             .all();
-    const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kSquare;
+    // One spread of squares changes nothing but how much a prior counts.
+    const bool has_one_scale =
+        spreads.size() == 1 && problem.loss.kind == LossKind::kSquare && problem.prior.empty();
     fit.cost =
         weigh(fit.residuals, nullptr, spreads, problem.loss).value + problem.prior.cost(fit.x);
     fit.spreads = spreads;

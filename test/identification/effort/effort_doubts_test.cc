@@ -134,14 +134,18 @@ Problem wheel(double inertia, double coulomb, double viscous, double cutoff = 20
     return "<codesign:parameter name=\"" + name + "\" value=\"" + std::to_string(value) +
            "\" lower=\"0\" upper=\"1e4\"/>";
   };
-  const std::string urdf = "<robot name=\"w\" xmlns:codesign=\"urn:t\">" + declared("J", inertia) +
-                           declared("c", coulomb) + declared("b", viscous) +
-                           R"(<link name="base"/><link name="wheel"><inertial><mass value="0.1"/>
-      <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0" codesign:ixx="${J}" codesign:iyy="${J}"
-        codesign:izz="${J}"/></inertial></link>
-    <joint name="j" type="continuous"><parent link="base"/><child link="wheel"/><axis xyz="0 0 1"/>
-      <codesign:friction coulomb="1" codesign:coulomb="${c}" viscous="1" codesign:viscous="${b}"
-        transition_velocity="0.01"/></joint></robot>)";
+  const auto twin = [](const std::string& name, const std::string& parameter, double value) {
+    return " " + name + "=\"" + std::to_string(value) + "\" codesign:" + name + "=\"${" +
+           parameter + "}\"";
+  };
+  const std::string urdf =
+      "<robot name=\"w\" xmlns:codesign=\"urn:t\">" + declared("J", inertia) +
+      declared("c", coulomb) + declared("b", viscous) +
+      R"(<link name="base"/><link name="wheel"><inertial><mass value="0.1"/><inertia ixy="0" ixz="0" iyz="0")" +
+      twin("ixx", "J", inertia) + twin("iyy", "J", inertia) + twin("izz", "J", inertia) +
+      R"(/></inertial></link><joint name="j" type="continuous"><parent link="base"/><child link="wheel"/>
+      <axis xyz="0 0 1"/><codesign:friction transition_velocity="0.01")" +
+      twin("coulomb", "c", coulomb) + twin("viscous", "b", viscous) + "/></joint></robot>";
   return load_problem(
       {"wheel.urdf", urdf}, {},
       {"study.yaml", "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: " +

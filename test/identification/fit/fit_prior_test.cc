@@ -54,7 +54,7 @@ TEST(FitPrior, CountsWhatIsStatedOfMassCentreAndMoments) {
   EXPECT_NEAR(weak_and_stated(0.1, 1e9, 1e9).cost(with_body(2.0, heavier)) - weak, 4.0, 1e-9);
   EXPECT_NEAR(weak_and_stated(1e9, 1e9, 0.1).cost(with_body(2.0, heavier)) - weak, 12.0, 1e-9);
   TenOfPrior moved = TenOfPrior::Zero();
-  moved[9] = 0.5 * std::exp(kBefore[3]);
+  moved.tail<3>() << 0.5 * kBefore[6], 0.5 * kBefore[5], 0.5 * std::exp(kBefore[3]);
   EXPECT_NEAR(weak_and_stated(1e9, 0.1, 1e9).cost(with_body(2.0, moved)) -
                   weak_and_stated(1e9, 1e9, 1e9).cost(with_body(2.0, moved)),
               25.0, 1e-9);
