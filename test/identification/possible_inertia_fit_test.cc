@@ -170,7 +170,9 @@ class SemidefiniteReference {
   }
 
   Eigen::VectorXd solve(Eigen::VectorXd u) const {
-    for (double mu = 1e3; mu > 1e-6; mu *= 0.2)
+    double mu = 1e3;
+    for (int fall = 0; fall < 13; ++fall) {
+      mu *= 0.2;
       for (int k = 0; k < 100; ++k) {
         Eigen::MatrixXd H = H_;
         Eigen::VectorXd slope = H_ * u + g_;
@@ -185,6 +187,7 @@ class SemidefiniteReference {
         if (t <= 1e-12) break;
         u += t * p;
       }
+    }
     return u;
   }
 

@@ -77,8 +77,10 @@ void InertiaStep::follow() {
     const double far = newton(1.0, slope(1.0)).decrease / (order * blocks_.front().weight);
     if (std::isfinite(far)) largest = std::max(1.0, far);
   }
-  for (double factor = largest; factor > 1.0; factor = std::max(1.0, kFall * factor))
-    minimize(factor, kOnPath);
+  while (largest > 1.0) {
+    minimize(largest, kOnPath);
+    largest *= kFall;
+  }
   minimize(1.0, kAtEnd);
 }
 
