@@ -10,6 +10,7 @@
 #include "cli/recordings.h"
 #include "cli/report.h"
 #include "description/study.h"
+#include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "jobs/files.h"
 #include "jobs/identification_records.h"
@@ -23,11 +24,29 @@
 namespace codesign::cli {
 namespace {
 
+/// Whether the base parameters tell of a number, and its own line would tell nothing: one of a free
+/// inertia that the data do not determine.
+std::vector<bool> told_by_combinations(const IdentificationResult& result) {
+  std::vector<bool> told(result.numbers.size(), false);
+  if (result.combinations.empty()) return told;
+  std::vector<std::string> names;
+  for (const IdentifiedNumber& number : result.numbers) names.push_back(number.name);
+  for (const auto& [link, columns] : free_inertias(names))
+    for (const int column : columns) {
+      const auto k = static_cast<std::size_t>(column);
+      told[k] = !result.numbers[k].is_determined;
+    }
+  return told;
+}
+
 void print_numbers(const IdentificationResult& result, double level, std::ostream& out) {
+  const std::vector<bool> told = told_by_combinations(result);
   Table table;
   table.add({"number", "start", "identified", "deviation", readable(100.0 * level) + " % from",
              "to", "note"});
-  for (const IdentifiedNumber& number : result.numbers) {
+  for (std::size_t k = 0; k < result.numbers.size(); ++k) {
+    if (told[k]) continue;
+    const IdentifiedNumber& number = result.numbers[k];
     const bool known = number.is_determined && !number.is_on_bound;
     table.add({number.name, readable(number.start), readable(number.value),
                known ? readable(number.deviation) : "", known ? readable(number.low) : "",
@@ -40,13 +59,18 @@ void print_numbers(const IdentificationResult& result, double level, std::ostrea
 }
 
 /// What is known of numbers that are not identifiable each, one line for each combination.
+/// Expressions that are longer than a line stand in the JSON.
 void print_combinations(const IdentificationResult& result, double level, std::ostream& out) {
+  constexpr std::size_t kLongest = 80;
   if (result.combinations.empty()) return;
   Table table;
   table.add({"value", "deviation", readable(100.0 * level) + " % from", "to", "known combination"});
   for (const BaseParameter& known : result.combinations)
     table.add({readable(known.value), readable(known.deviation), readable(known.low),
-               readable(known.high), known.expression});
+               readable(known.high),
+               known.expression.size() <= kLongest
+                   ? known.expression
+                   : known.expression.substr(0, kLongest - 4) + " ..."});
   table.print(out);
 }
 

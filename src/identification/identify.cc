@@ -102,10 +102,7 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   fit.start = variables.start();
   fit.lower = variables.lower();
   fit.upper = variables.upper();
-  if (const Eigen::VectorXd prior = variables.prior_deviations(); prior.array().isFinite().any()) {
-    fit.prior = prior;
-    fit.known = fit.start;
-  }
+  fit.prior = variables.prior();
   fit.loss = study_of(problem).identification->loss;
   fit.max_evaluations = problem.optimizer_options().max_evaluations;
   fit.relative_tolerance = problem.optimizer_options().relative_tolerance;
@@ -131,14 +128,20 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
   return status;
 }
 
+/// The file of the result has the whole sentences.
 Status not_identifiable(const std::vector<std::string>& sentences) {
-  constexpr std::size_t kTold = 5;
+  constexpr std::size_t kTold = 3, kLongest = 120;
   Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
-  for (std::size_t k = 0; k < std::min(kTold, sentences.size()); ++k)
-    status.cause += (k == 0 ? ": " : "; ") + sentences[k];
-  if (sentences.size() > kTold)
-    status.cause +=
-        "; and " + std::to_string(sentences.size() - kTold) + " more (\"undetermined\")";
+  std::size_t told = 0;
+  for (const std::string& sentence : sentences) {
+    if (told == kTold) break;
+    if (sentence.size() > kLongest) continue;
+    status.cause += (told == 0 ? ": " : "; ") + sentence;
+    ++told;
+  }
+  if (told < sentences.size())
+    status.cause += (told == 0 ? ": " : "; and ") + std::to_string(sentences.size() - told) +
+                    (told == 0 ? " combinations (\"undetermined\")" : " more (\"undetermined\")");
   return status;
 }
 
@@ -180,10 +183,11 @@ void require_data(const IdentificationDescription& options, const StudyRecording
                       "at least one recording"});
 }
 
-/// Adds the warnings of a finished fit, and the status of one that explains nothing or does not
-/// determine its numbers.
+/// Adds the warnings of a finished fit, and the status of one that explains nothing, or of which
+/// neither data nor prior determine all numbers.
 void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
-                const std::atomic<bool>* cancel, IdentificationResult* result) {
+                bool is_rest_decided, const std::atomic<bool>* cancel,
+                IdentificationResult* result) {
   Status unexplained;
   Warnings found = warnings_of_unexplained(problem, data, *result, cancel, &unexplained);
   append(warnings_of(*study_of(problem).identification, *result), &found);
@@ -191,7 +195,7 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
   append(result->warnings, &found);
   result->warnings = std::move(found);
   if (result->status.ok()) result->status = unexplained;
-  if (result->status.ok() && !result->undetermined.empty())
+  if (result->status.ok() && !result->undetermined.empty() && !is_rest_decided)
     result->status = not_identifiable(result->undetermined);
 }
 
@@ -257,7 +261,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& giv
     const Status status = judge_holdout(variables, fit, options.loss, holdout.get(), &result);
     if (result.status.ok()) result.status = status;
   }
-  add_doubts(problem, recordings.data, cancel, &result);
+  add_doubts(problem, recordings.data, decides_the_rest(limits.prior, fit, options.loss, result),
+             cancel, &result);
   result.cpu_seconds = timer.seconds();
   return result;
 }

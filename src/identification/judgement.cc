@@ -8,6 +8,7 @@
 
 #include "identification/fit/inertial_numbers.h"
 #include "math/arrays.h"
+#include "math/dense.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
@@ -122,6 +123,11 @@ std::vector<EffortDoubt> doubts_despite_fit(const IdentificationDescription& opt
   return left;
 }
 
+/// Whether most points of a fit could not be evaluated.
+bool is_fit_hindered(const IdentificationResult& result) {
+  return 2 * result.failed_evaluations > result.evaluations;
+}
+
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
                    IdentificationResult* result) {
   for (Eigen::Index k = 0; k < variables.size(); ++k) {
@@ -208,6 +214,18 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
   judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }
 
+bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossOptions& loss,
+                      const IdentificationResult& result) {
+  if (prior.empty()) return false;
+  const std::vector<int> columns = free_columns(result);
+  const Identifiability found =
+      find_identifiable(weighted_columns(fit, loss, {}, columns).jacobian);
+  if (found.dependent.empty()) return true;
+  const Eigen::MatrixXd slopes = prior.jacobian(fit.x)(Eigen::all, columns);
+  return find_identifiable(upper_factor(product(slopes, found.null_directions))).rank ==
+         static_cast<int>(found.dependent.size());
+}
+
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result) {
@@ -260,13 +278,24 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     const auto doubt = std::find_if(doubts.begin(), doubts.end(),
                                     [&joint](const EffortDoubt& of) { return of.joint == joint; });
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
-    const std::string sentence =
+    const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
+               is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
+    std::string sentence =
         "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
         fit.joint + ": sign, unit, order?" +
         (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
         (mistake.empty() ? "" : " " + mistake);
+    if (is_filter) sentence = "the fit does not explain " + fit.joint + ": " + mistake;
+    if (is_hindered)
+      sentence =
+          "most points of the fit could not be evaluated, and the best of the others explains less "
+          "than half of " +
+          fit.joint;
     const std::string allowed =
-        is_motion
+        is_filter ? "at least half; a cutoff above the frequencies of the motion"
+        : is_hindered
+            ? "at least half; bounds or twins that leave such points out, or another start"
+        : is_motion
             ? "at least half; positions in rad or m along the axis of the joint, efforts on the "
               "child in N m or N along the same axis, "
               "and the controllers and loads that drove the recording"
@@ -298,7 +327,7 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
         {options.where, "optimizer.max_evaluations",
          "the fit ended before it reached an optimum; its numbers are those of the best point",
          std::to_string(result.evaluations), "more evaluations, or a larger relative_tolerance"}));
-  if (2 * result.failed_evaluations > result.evaluations)
+  if (is_fit_hindered(result))
     warnings.push_back(warn(
         "fit_hindered",
         {options.where, "identify",

@@ -24,6 +24,11 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
                    const ResidualSource& source, const std::vector<DelaySignal>& delays,
                    const ResidualFit& fit, IdentificationResult* result);
 
+/// Whether a prior decides all that the data leave open: every direction that changes no residual
+/// changes the prior. @param result with numbers judged by judge_numbers()
+bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossOptions& loss,
+                      const IdentificationResult& result);
+
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
 /// is fixed in turn, and all others are fitted again.
 /// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param

@@ -189,15 +189,42 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   return object;
 }
 
+namespace {
+
+/// With a prior that decides the rest, one line; else the first sentences. Long ones stand in the
+/// JSON.
+void append_undetermined(const IdentificationResult& result, std::vector<std::string>* sentences) {
+  constexpr std::size_t kLongest = 160;
+  if (result.undetermined.empty()) return;
+  if (result.status.ok()) {
+    const auto on_bound = std::count_if(
+        result.numbers.begin(), result.numbers.end(),
+        [](const IdentifiedNumber& number) { return number.is_on_bound && number.is_determined; });
+    const auto free = static_cast<int>(result.numbers.size()) - static_cast<int>(on_bound);
+    sentences->push_back("the data determine " + std::to_string(result.rank) +
+                         " numbers or combinations of " + std::to_string(free) +
+                         " numbers; the prior decides the other " +
+                         std::to_string(free - result.rank));
+    return;
+  }
+  for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k) {
+    const std::string& whole = result.undetermined[k];
+    sentences->push_back("not identifiable: " + (whole.size() <= kLongest
+                                                     ? whole
+                                                     : whole.substr(0, kLongest - 4) + " ..."));
+  }
+  if (result.undetermined.size() > kToldSentences)
+    sentences->push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) +
+                         " more; what is known stands below");
+}
+
+}  // namespace
+
 std::vector<std::string> identification_sentences(const IdentificationResult& result) {
   std::vector<std::string> sentences;
   for (const OutputFit& fit : result.holdout) sentences.push_back(sentence_of("holdout", fit));
   for (const OutputFit& fit : result.data) sentences.push_back(sentence_of("fitted data", fit));
-  for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k)
-    sentences.push_back("not identifiable: " + result.undetermined[k]);
-  if (result.undetermined.size() > kToldSentences)
-    sentences.push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) +
-                        " more; what is known stands below");
+  append_undetermined(result, &sentences);
   const std::vector<Optimum>& optima = result.searches.optima;
   for (std::size_t k = 0; k < std::min(kShownOptima, optima.size()); ++k)
     sentences.push_back("optimum " + std::to_string(k + 1) + ": mean spread of the residuals " +

@@ -212,8 +212,13 @@ TEST(Identify, APriorChoosesAmongWhatTheDataLeaveOpen) {
       run(problem_of(parameters, "  prior: {inertia: 1.0e-4}\n"), Rig());
   EXPECT_NEAR(of_inertia.numbers[1].value, 0.1, 1e-3);
   EXPECT_NEAR(of_inertia.numbers[0].value, 2.8, 1e-3);
-  EXPECT_EQ(of_inertia.status.code, StatusCode::kNotIdentifiable)
-      << "a prior is not what the data tell";
+  EXPECT_TRUE(of_inertia.status.ok()) << "the prior decides: " << of_inertia.status.cause;
+  ASSERT_EQ(of_inertia.undetermined.size(), 1U) << "a prior is not what the data tell";
+  EXPECT_FALSE(of_inertia.numbers[1].is_determined);
+  const IdentificationResult of_friction =
+      run(problem_of(parameters, "  prior: {viscous: 0.5}\n"), Rig());
+  EXPECT_EQ(of_friction.status.code, StatusCode::kNotIdentifiable)
+      << "this prior does not decide between mass and inertia";
   EXPECT_THROW(problem_of(parameters, "  prior: {masss: 0.3}\n"), InputError);
   EXPECT_THROW(problem_of(parameters, "  prior: {viscous: 0}\n"), InputError);
 }

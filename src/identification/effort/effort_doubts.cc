@@ -26,10 +26,23 @@ constexpr double kUsualScale = 4.0;
 struct EffortEvidence {
   std::vector<std::string> joints;
   Eigen::MatrixXd recorded, computed, velocity, acceleration;
+  Eigen::MatrixXd by_x;  ///< derivatives of the residuals, the rows of joint 0 first
 };
 
 Eigen::VectorXd about_mean_of(const Eigen::VectorXd& recorded) {
   return recorded.array() - recorded.mean();
+}
+
+/// Viscous and dry friction and a rotor, per unit; rows x 3.
+Eigen::MatrixXd drive_line_columns(const Eigen::VectorXd& velocity,
+                                   const Eigen::VectorXd& acceleration) {
+  constexpr double kSlowShare = 0.1;
+  const double slow = std::max(
+      kSlowShare * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())),
+      1e-300);
+  Eigen::MatrixXd columns(velocity.size(), 3);
+  columns << velocity, (velocity.array() / slow).tanh().matrix(), acceleration;
+  return columns;
 }
 
 /// Unfiltered efforts at few samples.
@@ -55,7 +68,7 @@ std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVaria
   EffortResiduals residuals(*system_of(problem), variables, joints, std::move(motions), filter, 1);
   EffortEvidence evidence;
   const Eigen::VectorXd& x = variables.start();
-  if (!residuals.begin(x).ok() || !residuals.evaluate(x, &evidence.computed, nullptr).ok())
+  if (!residuals.begin(x).ok() || !residuals.evaluate(x, &evidence.computed, &evidence.by_x).ok())
     return std::nullopt;
   evidence.joints = residuals.outputs();
   evidence.recorded = residuals.recorded();
@@ -99,6 +112,44 @@ void take_if_better(double share, const std::string& mistake, EffortDoubt* doubt
   doubt->mistake = mistake;
 }
 
+/// The share of the squares of `column` about its mean that `known` leaves.
+double share_left(const Eigen::VectorXd& column, const PivotedLeastSquares& known) {
+  const Eigen::VectorXd about_mean = about_mean_of(column);
+  const double all = about_mean.squaredNorm();
+  return all > 0.0 ? std::max(0.0, 1.0 - known.explained(about_mean) / all) : 0.0;
+}
+
+/// Whether one factor of all efforts of the model explains a recording as well as all changes of
+/// the numbers that are to be found: then the recording has another unit. If those numbers alone
+/// explain it, their starts are wrong. A start that is all of the effort tells nothing.
+bool is_factor_of_all(const EffortEvidence& evidence, std::size_t joint) {
+  constexpr double kAlike = 2.0, kNothingLeft = 0.01, kHasIt = 0.2, kIsAll = 1e-3;
+  const auto k = to_signed(joint);
+  const Eigen::Index rows = evidence.recorded.rows();
+  Eigen::MatrixXd free = evidence.by_x.middleRows(k * rows, rows);
+  free.rowwise() -= free.colwise().mean().eval();
+  const Eigen::VectorXd computed = evidence.computed.col(k), recorded = evidence.recorded.col(k);
+  for (Eigen::Index i = 0; i < free.cols(); ++i)
+    if (share_left(computed, PivotedLeastSquares(free.col(i))) < kIsAll) return false;
+  const PivotedLeastSquares by_numbers(free);
+  // Friction and rotor count beside the model where it lacks them.
+  Eigen::MatrixXd scaled(rows, 4);
+  scaled << computed, drive_line_columns(evidence.velocity.col(k), evidence.acceleration.col(k));
+  scaled.rowwise() -= scaled.colwise().mean().eval();
+  for (Eigen::Index i = 1; i < scaled.cols(); ++i)
+    if (share_left(scaled.col(i), by_numbers) < kHasIt) scaled.col(i).setZero();
+  Eigen::MatrixXd left = scaled.rightCols(3);
+  Eigen::MatrixXd changed(rows, free.cols() + 3);
+  changed << free, left;
+  const double reference = about_mean_of(recorded).squaredNorm();
+  const Eigen::VectorXd error = about_mean_of(recorded - computed);
+  const double by_factor = share_left(recorded, PivotedLeastSquares(scaled)),
+               by_changes = reference > 0.0 ? share_left(error, PivotedLeastSquares(changed)) *
+                                                  error.squaredNorm() / reference
+                                            : 0.0;
+  return by_factor <= kAlike * by_changes + kNothingLeft;
+}
+
 /// Another sign, unit or column of the efforts.
 EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool is_scale_known) {
   const auto own = to_signed(joint);
@@ -106,7 +157,8 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
   EffortDoubt doubt{evidence.joints[joint], as_recorded.share, "", 0.0};
   const double scale = as_recorded.scale;
   if (as_recorded.share >= kExplainedHalf) {
-    if (is_scale_known && scale > 0.0 && (scale > kUsualScale || scale < 1.0 / kUsualScale)) {
+    if (is_scale_known && scale > 0.0 && (scale > kUsualScale || scale < 1.0 / kUsualScale) &&
+        is_factor_of_all(evidence, joint)) {
       doubt.mistake = "divided by about " + readable(scale, 4);
       doubt.mended = as_recorded.share;
       doubt.is_unit = true;
@@ -127,6 +179,47 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
       take_if_better(fit_of(evidence, joint, sign * evidence.recorded.col(k)).share, other + minus,
                      &doubt);
     }
+  return doubt;
+}
+
+/// Positions, or velocities where no positions were recorded, at the samples to fit.
+Eigen::VectorXd recorded_motion(const MeasuredMotion& motion, const std::string& joint) {
+  for (const JointMotion& each : motion.joints)
+    if (each.joint == joint) {
+      const Eigen::VectorXd& of = each.position_measured ? each.position : each.velocity;
+      return of.segment(motion.first, std::max<Eigen::Index>(0, motion.end - motion.first));
+    }
+  return {};
+}
+
+/// A doubt about the study's filter, if it leaves less than half of a joint's motion.
+std::optional<EffortDoubt> doubt_filter(const std::vector<JointRecording>& recordings,
+                                        FilterOptions filter, const std::string& joint) {
+  constexpr double kLeastLeft = 0.5;
+  if (filter.residual_cutoff > 0.0)
+    filter.cutoff = filter.cutoff > 0.0 ? std::min(filter.cutoff, filter.residual_cutoff)
+                                        : filter.residual_cutoff;
+  if (!(filter.cutoff > 0.0)) return std::nullopt;
+  filter.residual_cutoff = 0.0;
+  double all = 0.0, removed = 0.0;
+  for (const JointRecording& recording : recordings) {
+    Warnings known_warnings;
+    FilterOptions none = filter;
+    none.cutoff = 0.0;
+    // The same samples of both.
+    const Eigen::VectorXd smooth = recorded_motion(
+                              measured_motion(recording, filter, &known_warnings), joint),
+                          raw = recorded_motion(measured_motion(recording, none, &known_warnings),
+                                                joint);
+    const Eigen::Index cut = (raw.size() - smooth.size()) / 2;
+    const Eigen::VectorXd same = raw.segment(cut, smooth.size());
+    all += about_mean_of(same).squaredNorm();
+    removed += about_mean_of(same - smooth).squaredNorm();
+  }
+  if (!(removed > kLeastLeft * all)) return std::nullopt;
+  EffortDoubt doubt{joint, 0.0, "", 0.0};
+  doubt.cutoff = filter.cutoff;
+  doubt.motion_left = std::max(0.0, 1.0 - removed / all);
   return doubt;
 }
 
@@ -183,7 +276,7 @@ void doubt_order(const Problem& problem, const FitVariables& variables,
       take_if_better(mean_share(*evidence), name, &best);
   }
   for (EffortDoubt& doubt : *doubts) {
-    if (doubt.is_unit || !(best.mended > with_columns)) continue;
+    if (doubt.is_unit || doubt.cutoff > 0.0 || !(best.mended > with_columns)) continue;
     doubt.mistake = best.mistake;
     doubt.mended = best.mended;
   }
@@ -208,11 +301,9 @@ double explained_share(const Eigen::VectorXd& recorded, const Eigen::VectorXd& r
 DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::VectorXd& velocity,
                             const Eigen::VectorXd& acceleration, const Eigen::VectorXd& recorded) {
   constexpr int kColumns = 4;
-  constexpr double kSlow = 0.1, kLeastPart = 0.1;
+  constexpr double kLeastPart = 0.1;
   Eigen::MatrixXd columns(computed.size(), kColumns);
-  const double slow = std::max(
-      kSlow * std::sqrt(velocity.squaredNorm() / static_cast<double>(velocity.size())), 1e-300);
-  columns << computed, velocity, (velocity.array() / slow).tanh().matrix(), acceleration;
+  columns << computed, drive_line_columns(velocity, acceleration);
   columns.rowwise() -= columns.colwise().mean().eval();
   const Eigen::VectorXd lengths = columns.colwise().norm().cwiseMax(1e-300);
   columns = columns * lengths.cwiseInverse().asDiagonal();
@@ -255,13 +346,18 @@ std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
   const std::optional<EffortEvidence> evidence = usable_evidence(problem, variables, recordings);
   std::vector<EffortDoubt> doubts;
   for (std::size_t k = 0; evidence && k < evidence->joints.size(); ++k) {
+    if (const auto filtered = doubt_filter(recordings, study_of(problem).identification->filter,
+                                           evidence->joints[k])) {
+      doubts.push_back(*filtered);
+      continue;
+    }
     const bool is_scale_known = variables.columns(evidence->joints[k]).scale < 0;
     EffortDoubt doubt = doubt_column(*evidence, k, is_scale_known);
     if (doubt.share < kExplainedHalf || !doubt.mistake.empty()) doubts.push_back(std::move(doubt));
   }
   if (explained + kClearly <= 1.0 &&
       std::any_of(doubts.begin(), doubts.end(),
-                  [](const EffortDoubt& doubt) { return !doubt.is_unit; }))
+                  [](const EffortDoubt& doubt) { return !doubt.is_unit && doubt.cutoff == 0.0; }))
     doubt_order(problem, variables, recordings, *evidence, &doubts);
   return doubts;
 }
@@ -283,6 +379,9 @@ Warnings warnings_of(const IdentificationDescription& options,
 }
 
 std::string sentence_of(const EffortDoubt& doubt) {
+  if (doubt.cutoff > 0.0)
+    return "the filter of the study, of " + readable(doubt.cutoff) + " Hz, leaves " +
+           readable(100.0 * doubt.motion_left, 2) + " % of its recorded motion";
   if (doubt.mistake.empty()) return "";
   return doubt.mistake + ", the model as it stands would explain " +
          readable(100.0 * doubt.mended, 3) + " % of it";

@@ -51,13 +51,18 @@ struct EffortDoubt {
   double mended = 0.0;  ///< share with the mistake mended
   /// whether the mistake is a unit: with one, a fit explains the recording by wrong numbers
   bool is_unit = false;
+  /// the lower cutoff of the study's filter, if that leaves less than half of the recorded motion
+  /// of the joint, which then says nothing about the recording [Hz]; 0: it leaves more
+  double cutoff = 0.0;
+  double motion_left = 1.0;  ///< share of the squares of the positions about their mean
 };
 
 /// Compares recorded efforts with inverse dynamics of the model as it stands and looks for the
 /// mistake that explains a contradiction: another sign, another unit, exchanged columns, exchanged
-/// or reversed joints. About 400 samples of each recording are used. Empty if nothing contradicts,
-/// if no joint has efforts in all recordings, if the model cannot follow the recorded motion, or if
-/// inverse dynamics cannot compute its efforts while residuals are in motion.
+/// or reversed joints. A unit is no mistake where other values of the numbers that are to be found
+/// explain the recording. About 400 samples of each recording are used. Empty if nothing
+/// contradicts, if no joint has efforts in all recordings, if the model cannot follow the recorded
+/// motion, or if inverse dynamics cannot compute its efforts while residuals are in motion.
 /// @param explained least share that a fit explains of a joint: orders of joints are only looked
 /// for if one could explain clearly more
 /// @throws InputError as identify()
@@ -69,7 +74,8 @@ std::vector<EffortDoubt> find_effort_doubts(const Problem& problem,
 Warnings warnings_of(const IdentificationDescription& options,
                      const std::vector<EffortDoubt>& doubts);
 
-/// `with the other sign the model as it stands would explain 93 % of it`; empty without a mistake.
+/// `with the other sign the model as it stands would explain 93 % of it`, or what the filter leaves
+/// of the motion; empty without a mistake.
 std::string sentence_of(const EffortDoubt& doubt);
 
 }  // namespace codesign

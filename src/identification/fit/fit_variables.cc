@@ -28,21 +28,16 @@ std::string unit_of(const RobotDescription* robot, const std::string& joint, con
   return "";
 }
 
-/// Deviations of the ten numbers of a free inertia from relative deviations of its mass, centre and
-/// moments, to first order.
-template <class Find>
-void set_weak_prior(const Eigen::VectorXd& start, const std::array<int, 10>& columns,
-                    const Find& find, Eigen::VectorXd* deviations) {
-  constexpr double kWeak = 1.0;
-  const double mass = find(kFreeInertiaParts[0], kWeak), centre = find(kFreeInertiaParts[1], kWeak),
-               moments = find(kFreeInertiaParts[2], kWeak);
-  double square = 0.0;  // of the radius of gyration
-  for (int k = 1; k <= 3; ++k) square += std::exp(2.0 * start[columns[to_index(k)]]);
-  const double radius = std::sqrt(square);
-  const std::array<double, 10> of_columns{
-      0.5 * mass,       0.5 * moments,    0.5 * moments,   0.5 * moments,   moments * radius,
-      moments * radius, moments * radius, centre * radius, centre * radius, centre * radius};
-  for (std::size_t k = 0; k < columns.size(); ++k) (*deviations)[columns[k]] = of_columns[k];
+/// Of the divergence of free inertias, as a share of one residual. A minimum on the border of the
+/// possible inertias costs at most four times as much per link.
+constexpr double kWeakPrior = 0.05;
+
+/// The relative deviation that the study states of a name; infinite if it states none.
+double stated(const std::vector<PriorDescription>& priors, const std::string& name) {
+  const auto found =
+      std::find_if(priors.begin(), priors.end(),
+                   [&name](const PriorDescription& prior) { return prior.parameter == name; });
+  return found == priors.end() ? std::numeric_limits<double>::infinity() : found->deviation;
 }
 
 double at(const Eigen::VectorXd& x, int column, double known) {
@@ -123,22 +118,23 @@ std::vector<double> FitVariables::parameters(const Eigen::VectorXd& x) const {
   return parameters;
 }
 
-Eigen::VectorXd FitVariables::prior_deviations() const {
+FitPrior FitVariables::prior() const {
   const std::vector<PriorDescription>& priors = study_.identification->priors;
-  const auto find = [&priors](const std::string& name, double usual) {
-    const auto found =
-        std::find_if(priors.begin(), priors.end(),
-                     [&name](const PriorDescription& prior) { return prior.parameter == name; });
-    return found == priors.end() ? usual : found->deviation;
-  };
+  FitPrior prior;
   Eigen::VectorXd deviations =
       Eigen::VectorXd::Constant(size(), std::numeric_limits<double>::infinity());
-  for (const auto& [link, columns] : free_inertias(names_))
-    set_weak_prior(start_, columns, find, &deviations);
   for (Eigen::Index k = 0; k < tuned(); ++k)
-    if (const double relative = find(names_[to_index(k)], 0.0); relative > 0.0 && start_[k] != 0.0)
-      deviations[k] = relative * std::abs(start_[k]);
-  return deviations;
+    if (start_[k] != 0.0) deviations[k] = stated(priors, names_[to_index(k)]) * std::abs(start_[k]);
+  if (deviations.array().isFinite().any()) {
+    prior.deviations = deviations;
+    prior.known = start_;
+  }
+  for (const auto& [link, columns] : free_inertias(names_))
+    prior.inertias.push_back({columns, RelativeInertia(start_(columns)), kWeakPrior,
+                              stated(priors, kFreeInertiaParts[0]),
+                              stated(priors, kFreeInertiaParts[1]),
+                              stated(priors, kFreeInertiaParts[2])});
+  return prior;
 }
 
 FitVariables::SensorColumns FitVariables::columns(const std::string& joint) const {

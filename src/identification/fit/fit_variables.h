@@ -9,6 +9,7 @@
 
 #include "description/robot.h"
 #include "description/study.h"
+#include "identification/fit/fit_prior.h"
 #include "math/arrays.h"
 #include "math/sampled_function.h"
 
@@ -67,9 +68,9 @@ class FitVariables {
   const Eigen::VectorXd& lower() const { return lower_; }  ///< -infinity: none
   const Eigen::VectorXd& upper() const { return upper_; }
 
-  /// The standard deviation of each variable about its start before the fit, doc/theory.md (39b);
-  /// infinite: nothing is known. Free inertias have one of a weak prior.
-  Eigen::VectorXd prior_deviations() const;
+  /// What is known before the fit, doc/theory.md (39b): of whole free inertias their weak prior,
+  /// and what the study states.
+  FitPrior prior() const;
 
   /// All named parameters, in the order of Study::parameters.
   std::vector<double> parameters(const Eigen::VectorXd& x) const;

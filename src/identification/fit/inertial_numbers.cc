@@ -13,26 +13,6 @@ namespace {
 
 using Ten = Eigen::Matrix<double, 10, 1>;
 
-/// U of (28e), and its derivative by number k of kLogCholeskyNames.
-Eigen::Matrix4d factor_of(const Ten& x) {
-  Eigen::Matrix4d U = Eigen::Matrix4d::Identity();
-  for (int i = 0; i < 3; ++i) U(i, i) = std::exp(x[1 + i]);
-  U(0, 1) = x[4];
-  U(1, 2) = x[5];
-  U(0, 2) = x[6];
-  U.topRightCorner<3, 1>() = x.tail<3>();
-  return std::exp(x[0]) * U;
-}
-
-Eigen::Matrix4d factor_slope(const Ten& x, int k, const Eigen::Matrix4d& U) {
-  if (k == 0) return U;
-  constexpr int kRows[] = {0, 1, 2, 0, 1, 0, 0, 1, 2}, kColumns[] = {0, 1, 2, 1, 2, 2, 3, 3, 3};
-  const int row = kRows[k - 1], column = kColumns[k - 1];
-  Eigen::Matrix4d slope = Eigen::Matrix4d::Zero();
-  slope(row, column) = k <= 3 ? U(row, column) : std::exp(x[0]);
-  return slope;
-}
-
 /// The ten numbers, in the order of kInertialNames, of a pseudo-inertia; linear in it.
 Ten numbers_of(const Eigen::Matrix4d& P) {
   Ten numbers;
@@ -43,12 +23,30 @@ Ten numbers_of(const Eigen::Matrix4d& P) {
 
 }  // namespace
 
+Eigen::Matrix4d cholesky_factor(const Eigen::Matrix<double, 10, 1>& x) {
+  Eigen::Matrix4d U = Eigen::Matrix4d::Identity();
+  for (int i = 0; i < 3; ++i) U(i, i) = std::exp(x[1 + i]);
+  U(0, 1) = x[4];
+  U(1, 2) = x[5];
+  U(0, 2) = x[6];
+  U.topRightCorner<3, 1>() = x.tail<3>();
+  return std::exp(x[0]) * U;
+}
+
+Eigen::Matrix4d cholesky_slope(const Eigen::Matrix<double, 10, 1>& x, int k) {
+  if (k == 0) return cholesky_factor(x);
+  constexpr int kRows[] = {0, 1, 2, 0, 1, 0, 0, 1, 2}, kColumns[] = {0, 1, 2, 1, 2, 2, 3, 3, 3};
+  Eigen::Matrix4d slope = Eigen::Matrix4d::Zero();
+  slope(kRows[k - 1], kColumns[k - 1]) = std::exp(k <= 3 ? x[0] + x[k] : x[0]);
+  return slope;
+}
+
 InertialNumbers inertial_numbers(const Eigen::Matrix<double, 10, 1>& log_cholesky) {
-  const Eigen::Matrix4d U = factor_of(log_cholesky);
+  const Eigen::Matrix4d U = cholesky_factor(log_cholesky);
   InertialNumbers result;
   result.values = numbers_of(U * U.transpose());
   for (int k = 0; k < 10; ++k) {
-    const Eigen::Matrix4d slope = factor_slope(log_cholesky, k, U);
+    const Eigen::Matrix4d slope = cholesky_slope(log_cholesky, k);
     result.derivatives.col(k) = numbers_of(slope * U.transpose() + U * slope.transpose());
   }
   return result;

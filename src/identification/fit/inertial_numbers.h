@@ -22,6 +22,11 @@ struct InertialNumbers {
 };
 InertialNumbers inertial_numbers(const Eigen::Matrix<double, 10, 1>& log_cholesky);
 
+/// U of (28e) of these ten numbers, upper triangular.
+Eigen::Matrix4d cholesky_factor(const Eigen::Matrix<double, 10, 1>& log_cholesky);
+/// Its derivative by number k.
+Eigen::Matrix4d cholesky_slope(const Eigen::Matrix<double, 10, 1>& log_cholesky, int k);
+
 /// Numbers of a fit and the derivatives of residuals by them.
 struct LinearNumbers {
   std::vector<std::string> names;

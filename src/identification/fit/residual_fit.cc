@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "identification/fit/inertia_search.h"
 #include "identification/fit/residual_source.h"
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -20,10 +20,6 @@ namespace codesign {
 namespace {
 
 constexpr int kMostPasses = 10;
-// The least gain of a step of a fit with a prior, of one residual, or for each number that it
-// finds.
-constexpr double kLeastWorth = 0.1;
-constexpr double kWorthPerNumber = 0.01;
 // With a prior, spreads count as found at this relative change of all of them, or at this share of
 // the standard deviation of a spread.
 constexpr double kSpreadTolerance = 1e-3;
@@ -56,32 +52,32 @@ Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOption
 
 /// A spread is known from `rows` residuals to 1 / sqrt(2 rows).
 double spread_tolerance(const FitProblem& problem, Eigen::Index rows) {
-  if (problem.prior.size() == 0) return kSpreadTolerance;
+  if (problem.prior.empty()) return kSpreadTolerance;
   return std::max(kSpreadTolerance, kSpreadShare / std::sqrt(2.0 * static_cast<double>(rows)));
 }
 
-/// Deviations from what is known before, each over its standard deviation; zero where nothing is
-/// known.
-Eigen::VectorXd surprises(const FitProblem& problem, const Eigen::VectorXd& x) {
-  if (problem.prior.size() == 0) return {};
-  return (x - problem.known).cwiseQuotient(problem.prior);
-}
-
-/// R of the rows of residuals and of the prior.
-Eigen::MatrixXd root_with_prior(const FitProblem& problem, const Eigen::MatrixXd& jacobian) {
-  if (problem.prior.size() == 0) return triangular_root(jacobian);
-  Eigen::MatrixXd rows(jacobian.rows() + jacobian.cols(), jacobian.cols());
-  rows.topRows(jacobian.rows()) = jacobian;
-  rows.bottomRows(jacobian.cols()) = problem.prior.cwiseInverse().asDiagonal();
-  return triangular_root(rows);
+/// Adds a prior to gradient and root of a point.
+void add_prior(const FitPrior& prior, const Eigen::VectorXd& x, LeastSquaresPoint* point) {
+  if (prior.empty()) return;
+  const Eigen::MatrixXd slopes = prior.jacobian(x);
+  point->gradient += 2.0 * (slopes.transpose() * prior.rows(x));
+  Eigen::MatrixXd rows(point->root.rows() + slopes.rows(), x.size());
+  rows << point->root, slopes;
+  point->root = triangular_root(rows);
 }
 
 /// The cost with fixed spreads. Keeps residuals and Jacobian of the best point, and the counts.
 class WeightedCost final : public LeastSquaresModel {
  public:
-  WeightedCost(const FitProblem& problem, const Eigen::VectorXd& spreads, ResidualSource* source,
+  /// @param modelled the prior that gradient and root count; the value counts that of the problem
+  WeightedCost(const FitProblem& problem, FitPrior modelled, ResidualSource* source,
                const FitObserver& observer, ResidualFit* fit)
-      : problem_(problem), spreads_(spreads), source_(*source), observer_(observer), fit_(*fit) {}
+      : problem_(problem),
+        modelled_(std::move(modelled)),
+        spreads_(fit->spreads),
+        source_(*source),
+        observer_(observer),
+        fit_(*fit) {}
 
   Outcome evaluate(const Eigen::VectorXd& x, LeastSquaresPoint* point) override {
     if (begins_at_best()) {
@@ -119,11 +115,10 @@ class WeightedCost final : public LeastSquaresModel {
  private:
   void take(const Eigen::VectorXd& x, LeastSquaresPoint* point) {
     const WeightedResiduals weighted = weigh(residuals_, &jacobian_, spreads_, problem_.loss);
-    const Eigen::VectorXd surprise = surprises(problem_, x);
-    point->value = weighted.value + surprise.squaredNorm();
+    point->value = weighted.value + problem_.prior.cost(x);
     point->gradient = 2.0 * (weighted.jacobian.transpose() * weighted.residuals.reshaped());
-    if (surprise.size() > 0) point->gradient += 2.0 * surprise.cwiseQuotient(problem_.prior);
-    point->root = root_with_prior(problem_, weighted.jacobian);
+    point->root = triangular_root(weighted.jacobian);
+    add_prior(modelled_, x, point);
     point->inner_decrease = source_.inner_decrease();
     keep(x, point->value);
   }
@@ -145,6 +140,7 @@ class WeightedCost final : public LeastSquaresModel {
   }
 
   const FitProblem& problem_;
+  const FitPrior modelled_;
   const Eigen::VectorXd& spreads_;
   ResidualSource& source_;
   const FitObserver& observer_;
@@ -153,29 +149,38 @@ class WeightedCost final : public LeastSquaresModel {
   bool is_begun_ = false;
 };
 
+/// Inertias whose residuals are linear in the inertial numbers, as efforts are and motions are not.
+std::vector<InertiaPrior> linear_inertias(const FitProblem& problem, const ResidualSource& source) {
+  if (source.own_unknowns() > 0) return {};
+  return unbounded_inertias(problem.prior, problem.lower, problem.upper);
+}
+
 void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer,
             ResidualFit* fit) {
-  const Eigen::Index rows =
-      std::accumulate(source->lengths().begin(), source->lengths().end(), Eigen::Index{0});
   source->count_by(fit->spreads, problem.loss);
-  WeightedCost cost(problem, fit->spreads, source, observer, fit);
+  const std::vector<InertiaPrior> inertias = linear_inertias(problem, *source);
+  FitPrior modelled = problem.prior;
+  modelled.inertias.erase(std::remove_if(modelled.inertias.begin(), modelled.inertias.end(),
+                                         [&inertias](const InertiaPrior& prior) {
+                                           return std::any_of(inertias.begin(), inertias.end(),
+                                                              [&prior](const InertiaPrior& linear) {
+                                                                return linear.columns ==
+                                                                       prior.columns;
+                                                              });
+                                         }),
+                          modelled.inertias.end());
+  WeightedCost cost(problem, std::move(modelled), source, observer, fit);
   LevenbergMarquardtOptions options;
   options.max_evaluations =
       std::max(1, problem.max_evaluations - fit->evaluations + (cost.begins_at_best() ? 1 : 0));
   options.relative_tolerance = problem.relative_tolerance;
-  // Along directions that only a prior determines steps gain little. The cost of the true numbers
-  // is above the least one by about their count, so that a hundredth of that is nothing.
-  if (problem.prior.size() > 0) {
-    const double worth =
-        std::max(kLeastWorth, kWorthPerNumber * static_cast<double>(fit->x.size()));
-    options.relative_tolerance = std::max(
-        options.relative_tolerance, worth / static_cast<double>(std::max<Eigen::Index>(1, rows)));
-  }
   options.largest_first_step = std::numeric_limits<double>::infinity();
   Eigen::VectorXd x = fit->x;
   LeastSquaresPoint best;
-  fit->termination =
-      name_of(minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best));
+  fit->termination = name_of(
+      inertias.empty()
+          ? minimize_squares(options, problem.lower, problem.upper, &cost, &x, &best)
+          : minimize_with_inertias(options, problem.lower, problem.upper, inertias, &cost, &x));
 }
 
 /// A point that may start a fit.
@@ -324,9 +329,11 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
         ((spreads - fit.spreads).array().abs() <=
          spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
             .all();
-    const bool has_one_scale = spreads.size() == 1 && problem.loss.kind == LossKind::kSquare;
-    fit.cost = weigh(fit.residuals, nullptr, spreads, problem.loss).value +
-               surprises(problem, fit.x).squaredNorm();
+    // One spread of squares changes nothing but how much a prior counts.
+    const bool has_one_scale =
+        spreads.size() == 1 && problem.loss.kind == LossKind::kSquare && problem.prior.empty();
+    fit.cost =
+        weigh(fit.residuals, nullptr, spreads, problem.loss).value + problem.prior.cost(fit.x);
     fit.spreads = spreads;
     if (are_spreads_settled || has_one_scale) break;
   }

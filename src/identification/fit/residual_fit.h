@@ -8,6 +8,7 @@
 
 #include "description/ensemble.h"
 #include "description/identification.h"
+#include "identification/fit/fit_prior.h"
 #include "identification/fit/residual_source.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/optimizer_options.h"
@@ -54,10 +55,7 @@ struct FitProblem {
   LossOptions loss;
   int max_evaluations = 200;
   double relative_tolerance = 1e-6;  ///< of the cost
-  /// What is known before: normal distributions about `known` with these standard deviations, which
-  /// add ((x - known) / prior)^2 to the cost; doc/theory.md (39b). Infinite: nothing. Empty:
-  /// nothing of any variable.
-  Eigen::VectorXd prior, known;
+  FitPrior prior;                    ///< what is known before; doc/theory.md (39b)
 };
 
 /// The best point of a fit.

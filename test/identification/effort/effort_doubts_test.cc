@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "description/study.h"
 #include "identification/identify.h"
+#include "identification/judgement.h"
 #include "identification/motion_rig.h"
 #include "identification/simulated_recording.h"
 #include "identification/swinging_arm.h"
@@ -124,6 +126,103 @@ TEST(EffortDoubts, AUnitThatTheNumbersFollowIsDoubtedToo) {
     EXPECT_TRUE(warns(result, "recording_effort", "effort of b contradicts")) << factor;
     EXPECT_TRUE(warns(result, "recording_effort", "divided by about 1")) << factor;
   }
+}
+
+/// A wheel about a vertical axis with friction; all of its numbers are sought.
+Problem wheel(double inertia, double coulomb, double viscous, double cutoff = 20.0) {
+  const auto declared = [](const std::string& name, double value) {
+    return "<codesign:parameter name=\"" + name + "\" value=\"" + std::to_string(value) +
+           "\" lower=\"0\" upper=\"1e4\"/>";
+  };
+  const auto twin = [](const std::string& name, const std::string& parameter, double value) {
+    return " " + name + "=\"" + std::to_string(value) + "\" codesign:" + name + "=\"${" +
+           parameter + "}\"";
+  };
+  const std::string urdf =
+      "<robot name=\"w\" xmlns:codesign=\"urn:t\">" + declared("J", inertia) +
+      declared("c", coulomb) + declared("b", viscous) +
+      R"(<link name="base"/><link name="wheel"><inertial><mass value="0.1"/><inertia ixy="0" ixz="0" iyz="0")" +
+      twin("ixx", "J", inertia) + twin("iyy", "J", inertia) + twin("izz", "J", inertia) +
+      R"(/></inertial></link><joint name="j" type="continuous"><parent link="base"/><child link="wheel"/>
+      <axis xyz="0 0 1"/><codesign:friction transition_velocity="0.01")" +
+      twin("coulomb", "c", coulomb) + twin("viscous", "b", viscous) + "/></joint></robot>";
+  return load_problem(
+      {"wheel.urdf", urdf}, {},
+      {"study.yaml", "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: " +
+                         std::to_string(cutoff) + "}\nparameters: {J: {}, c: {}, b: {}}\n"});
+}
+
+/// J = 0.02, c = 2, b = 0.6, with noise, times `factor`.
+JointRecording wheel_recording(double factor, double end = 20.0, double rate = 200.0) {
+  JointRecording recording;
+  recording.file = "data.csv";
+  recording.element = "identify.data[0]";
+  recording.where = {"study.yaml", 2};
+  JointSamples j{"j", {}, {}, {}};
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < static_cast<int>(end * rate); ++k) {
+    const double t = k / rate, velocity = 3.0 * std::cos(3.0 * t) + 1.5 * std::cos(7.0 * t),
+                 acceleration = -9.0 * std::sin(3.0 * t) - 10.5 * std::sin(7.0 * t);
+    recording.times.push_back(t);
+    recording.places.push_back(static_cast<std::size_t>(k) + 2);
+    j.position.push_back(std::sin(3.0 * t) + 1.5 / 7.0 * std::sin(7.0 * t));
+    j.velocity.push_back(velocity);
+    j.effort.push_back(factor * (0.02 * acceleration + 2.0 * std::tanh(400.0 * velocity) +
+                                 0.6 * velocity + 0.05 * normal(random)));
+  }
+  recording.joints = {j};
+  return recording;
+}
+
+TEST(EffortDoubts, AWrongStartOfATunedNumberIsNoUnit) {
+  for (const double viscous : {6.0, 20.0}) {
+    const Problem problem = wheel(0.02, 1.0, viscous);
+    EXPECT_TRUE(find_effort_doubts(problem, {wheel_recording(1.0)}).empty()) << viscous;
+    const IdentificationResult result = fit(problem, wheel_recording(1.0));
+    EXPECT_TRUE(result.status.ok()) << result.status.cause;
+    EXPECT_TRUE(result.warnings.empty()) << result.warnings.front().message;
+    EXPECT_NEAR(result.numbers[2].value, 0.6, 0.02);
+  }
+  const std::vector<EffortDoubt> found =
+      find_effort_doubts(wheel(0.02, 2.0, 0.6), {wheel_recording(100.0)});
+  ASSERT_EQ(found.size(), 1U) << "all numbers right, and the recording in another unit";
+  EXPECT_TRUE(found[0].is_unit);
+  EXPECT_EQ(found[0].mistake.find("divided by about "), 0U) << found[0].mistake;
+}
+
+TEST(EffortDoubts, AFilterThatRemovesTheMotionIsNamed) {
+  const JointRecording recording = wheel_recording(1.0, 240.0, 20.0);
+  const IdentificationResult result = fit(wheel(0.02, 2.0, 0.6, 0.05), recording);
+  EXPECT_TRUE(warns(result, "effort_not_explained",
+                    "the fit does not explain j: the filter of the study, of 0.05 Hz, leaves "));
+  EXPECT_FALSE(warns(result, "effort_not_explained", "sign, unit, order?"));
+  const std::vector<EffortDoubt> wide = find_effort_doubts(wheel(0.02, 2.0, 0.6, 5.0), {recording});
+  EXPECT_TRUE(wide.empty()) << "a filter above the motion";
+  JointRecording turned = recording;
+  for (double& effort : turned.joints[0].effort) effort = -effort;
+  EXPECT_TRUE(warns(fit(wheel(0.02, 2.0, 0.6, 5.0), turned), "effort_not_explained",
+                    "sign, unit, order? with the other sign"));
+}
+
+TEST(EffortDoubts, AFitThatWasHinderedIsNotBlamedOnTheRecording) {
+  IdentificationResult result;
+  OutputFit poor;
+  poor.joint = "j";
+  poor.explained = -0.2;
+  result.data = {poor};
+  result.evaluations = 10;
+  const Problem problem = wheel(0.02, 2.0, 0.6);
+  const auto message_of = [&](int failed) {
+    result.failed_evaluations = failed;
+    Status failure;
+    return unexplained_outputs(*study_of(problem).identification, result, {}, &failure)
+        .at(0)
+        .message;
+  };
+  EXPECT_NE(message_of(8).find("most points of the fit could not be evaluated"), std::string::npos)
+      << message_of(8);
+  EXPECT_NE(message_of(2).find("sign, unit, order?"), std::string::npos) << message_of(2);
 }
 
 TEST(EffortDoubts, OutliersThatALossLeavesOutDoNotCount) {

@@ -38,8 +38,8 @@ const std::string kServo =
     "0.5, frequency: 0.7}, output: hinge, gains: {p: 30, i: 0, d: 3}}}\n";
 const std::map<std::string, double> kTruth = {{"mass", 2.5}, {"viscous", 0.35}, {"gust", 3.0}};
 
-Problem problem_of(const std::string& blocks, const std::string& identify = "{}",
-                   const std::string& more = "") {
+Problem given_problem(const std::string& blocks, const std::string& identify = "{}",
+                      const std::string& more = "") {
   return load_problem(
       {"shaken.urdf", kShaken}, {},
       {"study.yaml", "duration: 3\nidentify: " + identify + "\nparameters: {mass: {}, viscous: {}" +
@@ -55,7 +55,7 @@ void expect_truth(const IdentificationResult& result, double relative) {
 }
 
 TEST(GivenMotion, CompletesRecordings) {
-  const Problem problem = problem_of(kShake + kServo);
+  const Problem problem = given_problem(kShake + kServo);
   StudyRecordings recordings;
   recordings.data = {record_run(problem, kTruth, {"hinge"}, 100.0)};
   recordings.holdout = {record_run(problem, kTruth, {"slide", "hinge"}, 100.0)};
@@ -76,7 +76,7 @@ TEST(GivenMotion, CompletesRecordings) {
 // The acceleration of the suspension turns the pendulum; a model without it would not find mass
 // and damping.
 TEST(GivenMotion, IsThatOfTheModelInEfforts) {
-  const Problem problem = problem_of(kShake + kServo);
+  const Problem problem = given_problem(kShake + kServo);
   StudyRecordings recordings;
   recordings.data = {record_run(problem, kTruth, {"hinge"}, 500.0)};
   const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -89,20 +89,20 @@ TEST(GivenMotion, IsThatOfTheModelInEfforts) {
 }
 
 TEST(GivenMotion, OfARecordedJointIsTheRecordedOne) {
-  const Problem problem = problem_of(kShake + kServo);
+  const Problem problem = given_problem(kShake + kServo);
   StudyRecordings recordings;
   recordings.data = {record_run(problem, kTruth, {"slide", "hinge"}, 500.0)};
   // The table's own clock is one second late, which the recorded positions show.
   const Problem late =
-      problem_of("motion: {slide: {position: \"${0.05*sin(7*(t-1))}\"}}\n" + kServo);
+      given_problem("motion: {slide: {position: \"${0.05*sin(7*(t-1))}\"}}\n" + kServo);
   const IdentificationResult result = identify(late, recordings, {}, nullptr);
   expect_truth(result, 2e-4);
   EXPECT_EQ(result.data.size(), 2U);  // the efforts of both joints
 }
 
 TEST(GivenMotion, MovesSegments) {
-  const Problem problem = problem_of(kShake + "initial_state: {hinge: {position: 0.6}}\n",
-                                     "{residual: motion, segment: 1.5}");
+  const Problem problem = given_problem(kShake + "initial_state: {hinge: {position: 0.6}}\n",
+                                        "{residual: motion, segment: 1.5}");
   StudyRecordings recordings;
   recordings.data = {record_run(problem, kTruth, {"hinge"}, 100.0)};
   for (double& effort : recordings.data[0].joints[0].effort) effort = 0.0;
@@ -115,7 +115,7 @@ TEST(GivenMotion, MovesSegments) {
 // Nothing is free, so that segments have no start to seek, and the efforts of the motions tell the
 // numbers.
 TEST(GivenMotion, OfAllJointsLeavesEfforts) {
-  const Problem problem = problem_of(
+  const Problem problem = given_problem(
       "motion: {slide: {position: \"${0.05*sin(7*t)}\"}, hinge: {position: \"${0.5*sin(4*t)}\"}}\n",
       "{residual: motion, segment: 1.0}");
   StudyRecordings recordings;
@@ -130,7 +130,7 @@ TEST(GivenMotion, LoadsHaveTheClockOfTheRecording) {
       "point: "
       "[0, 0, -0.4]}]\n";
   for (const std::string residual : {"effort", "motion"}) {
-    const Problem problem = problem_of(
+    const Problem problem = given_problem(
         kShake + gust +
             (residual == "effort" ? kServo : "initial_state: {hinge: {position: 0.6}}\n"),
         "{residual: " + residual + "}", ", gust: {initial: 2.0, lower: 0, upper: 10}");
@@ -149,7 +149,7 @@ TEST(GivenMotion, LoadsHaveTheClockOfTheRecording) {
 }
 
 TEST(GivenMotion, RefusesTunedFunctionsThatAreNotRecorded) {
-  const Problem problem = problem_of(
+  const Problem problem = given_problem(
       "motion: {slide: {position: {type: sine, amplitude: \"${a}\", frequency: 1}}}\n" + kServo,
       "{}", ", a: {initial: 0.05, lower: 0, upper: 1}");
   StudyRecordings recordings;

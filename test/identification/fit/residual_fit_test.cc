@@ -57,7 +57,7 @@ class Decays final : public ResidualSource {
   SeriesLengths lengths_;
 };
 
-const Eigen::Vector2d kTruth(3.0, 0.7);
+const Eigen::Vector2d kTrueDecay(3.0, 0.7);
 
 Eigen::MatrixXd decay(Eigen::Index rows, const Eigen::VectorXd& factors,
                       const Eigen::VectorXd& noise) {
@@ -66,7 +66,7 @@ Eigen::MatrixXd decay(Eigen::Index rows, const Eigen::VectorXd& factors,
   Eigen::MatrixXd measured(rows, factors.size());
   for (Eigen::Index k = 0; k < factors.size(); ++k)
     for (Eigen::Index row = 0; row < rows; ++row)
-      measured(row, k) = factors[k] * Decays::value(kTruth, row) + noise[k] * normal(random);
+      measured(row, k) = factors[k] * Decays::value(kTrueDecay, row) + noise[k] * normal(random);
   return measured;
 }
 
@@ -100,7 +100,7 @@ TEST(ResidualFit, ExactDataAreFoundExactly) {
   Decays source(decay(60, one(1.0), one(0.0)), one(1.0));
   const ResidualFit fit = fit_residuals(from(1.0, 0.1), &source);
   ASSERT_TRUE(fit.status.ok()) << fit.status.cause;
-  EXPECT_LT((fit.x - kTruth).norm(), 1e-8);
+  EXPECT_LT((fit.x - kTrueDecay).norm(), 1e-8);
   EXPECT_LT(fit.residuals.cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_GT(fit.start_residuals.norm(), 1.0);
 }
@@ -112,19 +112,19 @@ TEST(ResidualFit, TheNoisyOutputCountsLess) {
   ASSERT_TRUE(fit.status.ok());
   EXPECT_NEAR(fit.spreads[0], 0.001, 0.0002);
   EXPECT_NEAR(fit.spreads[1], 1.0, 0.15);
-  EXPECT_LT((fit.x - kTruth).norm(), 0.002) << "equal weights would be wrong by more than 0.02";
+  EXPECT_LT((fit.x - kTrueDecay).norm(), 0.002) << "equal weights would be wrong by more than 0.02";
 }
 
 TEST(ResidualFit, ARobustLossIgnoresOutliers) {
   Eigen::MatrixXd measured = decay(200, one(1.0), one(0.01));
   for (Eigen::Index row = 0; row < 200; row += 10) measured(row, 0) += 5.0;
   Decays source(measured, one(1.0));
-  const double plain = (fit_residuals(from(1.0, 0.1), &source).x - kTruth).norm();
+  const double plain = (fit_residuals(from(1.0, 0.1), &source).x - kTrueDecay).norm();
   FitProblem problem = from(1.0, 0.1);
   problem.loss = {LossKind::kHuber, 1.345};
   const ResidualFit fit = fit_residuals(problem, &source);
   EXPECT_GT(plain, 0.05);
-  EXPECT_LT((fit.x - kTruth).norm(), 0.02);
+  EXPECT_LT((fit.x - kTrueDecay).norm(), 0.02);
   EXPECT_NEAR(fit.spreads[0], 0.01, 0.004) << "outliers do not widen the spread";
 }
 
@@ -145,7 +145,7 @@ TEST(ResidualFit, TurnsBackFromPointsThatFail) {
   FitProblem problem = from(40.0, 3.0);
   const ResidualFit fit = fit_residuals(problem, &source);
   ASSERT_TRUE(fit.status.ok());
-  EXPECT_LT((fit.x - kTruth).norm(), 1e-6);
+  EXPECT_LT((fit.x - kTrueDecay).norm(), 1e-6);
   problem.start[0] = 0.1;
   const ResidualFit failed = fit_residuals(problem, &source);
   EXPECT_EQ(failed.status.code, StatusCode::kInvalidDesign);
