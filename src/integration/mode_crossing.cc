@@ -107,6 +107,17 @@ double ModeWatch::guard_rate(int k, const State<double>& at, const State<double>
   return guards[k].directions()[0];
 }
 
+// Those of z are zero.
+State<double> ModeWatch::rates_of(const State<double>& at) const {
+  State<double> rates;
+  rates.resize(system_.layout());
+  rates.q = at.v;
+  rates.v = at.z.head(system_.layout().n);
+  rates.s = at.z.tail(system_.layout().states);
+  rates.z.setZero();
+  return rates;
+}
+
 // A little further along the motion, where the guards that are zero here have signs.
 std::vector<bool> ModeWatch::mode_behind(const State<double>& at, const State<double>& rates,
                                          Equations<double>* equations) const {
@@ -181,7 +192,7 @@ int ModeWatch::jumped_guard(const ModeChange& change, Equations<double>* equatio
 // at a rate of zero. Its value goes with the square of the time, unlike that of a guard with an
 // instant of its own, which another design moves.
 int ModeWatch::left_guard(const ModeChange& change, Equations<double>* equations) {
-  constexpr double kSmall = 1e-3, kQuadratic = 0.35;
+  constexpr double kSmall = 1e-3, kQuadratic = 0.35, kAtRest = 1e-6;
   const double duration = system_.study().duration,
                h = std::max(1e-6 * duration, kSmall * step_size_);
   const auto guards_after = [&](double time, VectorX<double>* guards) {
@@ -198,10 +209,13 @@ int ModeWatch::left_guard(const ModeChange& change, Equations<double>* equations
   guards_after(0.0, &now);
   guards_after(0.5 * h, &residual_);
   guards_after(h, &ahead_);
+  const State<double> rates = rates_of(change.behind);
+  along_->hold(mode_);
   for (int k = 0; k < static_cast<int>(mode_.size()); ++k)
     if (const double beyond = side(k, ahead_);
         beyond < 0.0 && std::abs(now[k]) <= kSmall * std::abs(beyond) &&
-        side(k, residual_) > kQuadratic * beyond && !is_kink(k, equations))
+        side(k, residual_) > kQuadratic * beyond && !is_kink(k, equations) &&
+        h * std::abs(guard_rate(k, change.behind, rates)) <= kAtRest * std::abs(beyond))
       return k;
   return -1;
 }
@@ -251,11 +265,7 @@ Status ModeWatch::cross(const State<double>& state, Assembly* assembly,
   if (Status status = assembly->rates().solve(equations, &change->before); !status.ok())
     return status;
   State<double>& before = change->before;
-  State<double> rates;
-  rates.resize(system_.layout());
-  rates.q = before.v;
-  rates.v = before.z.head(system_.layout().n);
-  rates.s = before.z.tail(system_.layout().states);
+  State<double> rates = rates_of(before);
   assembly->rates().differentiate(before, equations, &rates);
   equations->residual(before, &residual_, &change->g_before);
   along_->hold(mode_);

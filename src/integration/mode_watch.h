@@ -136,6 +136,7 @@ class ModeWatch {
   bool repeat(int guard, double h, OneStep<double>* step);
   /// The range of the guard from the start of the attempt to its zero, per second.
   double pace_before(const Crossing& crossing) const;
+  State<double> rates_of(const State<double>& at) const;
   double guard_rate(int k, const State<double>& at, const State<double>& rates);
   /// Whether nothing jumps at a switch of the mode, whatever its guard is: a kink by its form.
   bool is_kink(int k, Equations<double>* equations) const;

@@ -49,8 +49,8 @@ Spin spin(const std::string& urdf, const std::string& start, const Eigen::Vector
 
 TEST(RateSizes, AFastSpinTakesFewerStepsInAnyCoordinatesAndAxes) {
   for (const auto& [solver, most] :
-       std::vector<std::pair<std::string, int>>{{"coordinates: joint", 360},
-                                                {"coordinates: absolute", 360},
+       std::vector<std::pair<std::string, int>>{{"coordinates: joint, method: dopri5", 360},
+                                                {"coordinates: absolute, method: dopri5", 360},
                                                 {"method: rodas5p", 900},
                                                 {"coordinates: absolute, method: rodas5p", 900}}) {
     const Spin about_x = spin(spinning("floating"), "{angular_velocity: [1000, 0, 0]}",
