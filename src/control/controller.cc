@@ -331,6 +331,12 @@ std::string find_impossible(const ControllerDescription& description,
                             const ControllerConstants<double>& constants) {
   const ControlRealization& realization = description.realization;
   const std::string name = "controllers." + description.name + ".";
+  const bool is_smooth = !realization.is_sampled();
+  std::string fault;
+  if (realization.i_clamp) fault = find_bad_bounds(name + "i_clamp", constants.i_clamp, is_smooth);
+  if (fault.empty() && realization.output_limit)
+    fault = find_bad_bounds(name + "output_limit", constants.output_limit,
+                            is_smooth && !realization.limit_has_corners);
   const struct {
     const char* name;
     bool exists;
@@ -339,14 +345,8 @@ std::string find_impossible(const ControllerDescription& description,
       {"derivative_filter", realization.derivative_filter.has_value(), constants.derivative_filter},
       {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
   for (const auto& number : numbers)
-    if (number.exists && !(number.value > 0.0))
-      return name + number.name + " is " + to_decimal(number.value) + ", it must be positive";
-  const bool is_smooth = !realization.is_sampled();
-  std::string fault;
-  if (realization.i_clamp) fault = find_bad_bounds(name + "i_clamp", constants.i_clamp, is_smooth);
-  if (fault.empty() && realization.output_limit)
-    fault = find_bad_bounds(name + "output_limit", constants.output_limit,
-                            is_smooth && !realization.limit_has_corners);
+    if (fault.empty() && number.exists && !(number.value > 0.0))
+      fault = name + number.name + " is " + to_decimal(number.value) + ", it must be positive";
   // With the opposite sign what is cut off would drive the integral on.
   if (fault.empty() && realization.antiwindup == AntiWindup::kBackCalculation &&
       constants.tracking * constants.pid.i < 0.0)
