@@ -14,22 +14,32 @@ constexpr double kButterworth = 0.7071067811865476;
 
 template <class T>
 FilterShape<T> low_pass(const FilterNumbers<T>& x) {
-  return {T(kTurn) * x[0], T(0.0), T(0.0), T(0.0)};
+  FilterShape<T> h;
+  h.rate = kTurn * x[0];
+  return h;
 }
 
 template <class T>
 FilterShape<T> low_pass_2(const FilterNumbers<T>& x) {
-  return {T(kTurn) * x[0], T(0.0), T(0.0), T(2.0) * x[1]};
+  FilterShape<T> h = low_pass(x);
+  h.damping = 2.0 * x[1];
+  return h;
 }
 
 template <class T>
 FilterShape<T> notch(const FilterNumbers<T>& x) {
-  return {T(kTurn) * x[0], T(1.0), T(2.0) * x[1] * x[2], T(2.0) * x[1]};
+  FilterShape<T> h = low_pass_2(x);
+  h.lead = 1.0;
+  h.middle = h.damping * x[2];
+  return h;
 }
 
 template <class T>
 FilterShape<T> lead_lag(const FilterNumbers<T>& x) {
-  return {T(kTurn) * x[1], x[1] / x[0], T(0.0), T(0.0)};
+  FilterShape<T> h;
+  h.rate = kTurn * x[1];
+  h.lead = x[1] / x[0];
+  return h;
 }
 
 constexpr FilterNumber kFrequency{"frequency"};

@@ -13,7 +13,7 @@ Quantity read_filter_number(const YamlValue& filter, const FilterNumber& of,
                             const ParameterTable& table) {
   const auto value = filter.find(of.name);
   if (!value) return of.standard;
-  const Quantity quantity = read_quantity(*value, table);
+  Quantity quantity = read_quantity(*value, table);
   const double number = quantity.nominal();
   if (of.may_be_zero ? !(number >= 0.0) : !(number > 0.0))
     value->fail(of.may_be_zero ? "this must not be negative at the parameters' start"
