@@ -107,7 +107,7 @@ ControlBounds read_control_bounds(const YamlValue& value, const ParameterTable& 
   const std::vector<YamlValue> items = value.items();
   if (items.size() != 2)
     value.fail("two bounds are needed, found " + std::to_string(items.size()), "[lower, upper]");
-  const ControlBounds bounds{read_quantity(items[1], table), read_quantity(items[0], table)};
+  ControlBounds bounds{read_quantity(items[1], table), read_quantity(items[0], table)};
   const double lower = bounds.lower->nominal();
   const auto is_bad = [may_be_zero](double x) { return may_be_zero ? x < 0.0 : !(x > 0.0); };
   if (is_bad(-lower))
