@@ -98,9 +98,28 @@ class Resolver {
       wanted =
           wanted || reads(other.input_rate, SignalKind::kControllerErrorRate, static_cast<int>(k));
     if (!wanted) return;
+    refuse_sampled_rate(k);
+    controllers_[k].has_error_rate = true;
+    if (!passes_steps(description.filters)) return;
     refuse_kinked_integral(k);
     controllers_[k].input_rate =
         differentiate(controllers_[k].input, description.input, element(k) + ".input");
+  }
+
+  /// Whether the output of filters jumps with their input, so that its rate contains the input's.
+  static bool passes_steps(const std::vector<FilterDescription>& filters) {
+    return std::all_of(filters.begin(), filters.end(),
+                       [](const FilterDescription& filter) { return filter.kind->passes_steps; });
+  }
+
+  /// Between samples the output of a sampled filter has no rate.
+  void refuse_sampled_rate(std::size_t k) const {
+    const ControllerDescription& description = study_.controllers[k];
+    if (description.filters.empty() || !description.realization.is_sampled()) return;
+    throw InputError({description.filters.front().where, element(k) + ".filter",
+                      "a sampled filter gives no rate of its signal, which this controller needs",
+                      description.filters.front().kind->name,
+                      "a pid, whose rate is a difference; or a continuous controller"});
   }
 
   /// The rate of an integral is the error only if nothing clamps or samples it.
@@ -108,7 +127,7 @@ class Resolver {
     if (term.kind != SignalKind::kControllerIntegral) return true;
     const ControlRealization& realization =
         study_.controllers[to_index(term.controller)].realization;
-    return !realization.antiwindup && !realization.is_sampled();
+    return realization.antiwindup == AntiWindup::kNone && !realization.is_sampled();
   }
 
   void refuse_kinked_integral(std::size_t k) const {
@@ -126,7 +145,17 @@ class Resolver {
     const ControlRealization& realization = study_.controllers[k].realization;
     ControllerStates& places = controllers_[k].states;
     const bool sampled = realization.is_sampled(), pid = controllers_[k].kind->is_pid;
-    if (sampled || realization.derivative_filter) refuse_rates(k);
+    const auto filters = filters_of(study_.controllers[k]);
+    const bool filtered =
+        std::any_of(filters.begin(), filters.end(), [](const auto* of) { return !of->empty(); });
+    if (sampled || realization.derivative_filter || filtered) refuse_rates(k);
+    for (const auto* of : filters) {
+      places.inputs.emplace_back();
+      for (const FilterDescription& filter : *of) {
+        places.inputs.back().push_back({*states, filter.kind->order});
+        *states += filter.kind->order;
+      }
+    }
     if (realization.derivative_filter) places.filter = (*states)++;
     if (sampled && pid && !study_.controllers[k].d.is_zero()) places.last = (*states)++;
     if (sampled) places.held = (*states)++;
@@ -145,7 +174,7 @@ class Resolver {
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))
         throw InputError({study_.controllers[k].where, element(k),
-                          "a controller with sample_time or derivative_filter cannot read "
+                          "a controller with sample_time, filter or derivative_filter cannot read "
                           "accelerations, forces and powers",
                           description.text,
                           "positions, velocities, orientations, energies and controllers"});
@@ -173,6 +202,7 @@ class Resolver {
     };
     if (controller.kind->is_pid) {
       const bool twice = !description.d.is_zero() && !description.realization.derivative_filter;
+      if (twice && !description.filters.empty()) return;
       if (!is_free(controller.input) || !add(controller.input) ||
           (twice && !add(Signal(rates.front()))))
         return;
@@ -236,22 +266,112 @@ class Resolver {
 
 }  // namespace
 
+std::vector<const std::vector<FilterDescription>*> filters_of(
+    const ControllerDescription& description) {
+  std::vector<const std::vector<FilterDescription>*> filters;
+  if (description.kind->has_error()) filters.push_back(&description.filters);
+  for (const FeedbackTerm& term : description.feedback) filters.push_back(&term.filters);
+  return filters;
+}
+
+bool Controller::has_start() const {
+  return states.filter >= 0 || states.held >= 0 ||
+         std::any_of(states.inputs.begin(), states.inputs.end(),
+                     [](const std::vector<FilterPlace>& chain) { return !chain.empty(); });
+}
+
+std::vector<StatePlace> Controller::places(int queued) const {
+  std::vector<StatePlace> all{{state, 1, "integral"}};
+  for (const std::vector<FilterPlace>& chain : states.inputs)
+    for (const FilterPlace& filter : chain)
+      all.push_back({filter.state, filter.order, "feedback_filter"});
+  for (const StatePlace& place :
+       {StatePlace{states.filter, 1, "filter"}, StatePlace{states.last, 1, "last_error"},
+        StatePlace{states.held, 1, "held"}, StatePlace{states.queue, queued, "queue"},
+        StatePlace{states.lag, 1, "lag"}})
+    all.push_back(place);
+  return all;
+}
+
+namespace {
+
+std::string find_bad_bounds(const std::string& name, const Bounds<double>& bounds, bool is_smooth) {
+  const auto is_bad = [is_smooth](double bound) {
+    return is_smooth ? !(bound > 0.0) : bound < 0.0;
+  };
+  const bool is_lower = is_bad(-bounds.lower) && !bounds.is_symmetric;
+  if (is_bad(bounds.upper) || (bounds.is_symmetric && !(bounds.upper > 0.0)))
+    return name + " is " + to_decimal(bounds.upper) + ", it must be positive";
+  if (is_lower)
+    return "the lower bound of " + name + " is " + to_decimal(bounds.lower) +
+           (is_smooth ? ", it must be negative" : ", it must not be positive");
+  if (!(bounds.lower < bounds.upper)) return name + " leaves nothing between its bounds";
+  return "";
+}
+
+/// A frequency from half of the sampling rate on has no bilinear transform that keeps it.
+std::string find_bad_filter(const FilterDescription& filter, const std::string& name,
+                            double sample_time, const std::vector<double>& numbers) {
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const FilterNumber& of = filter.kind->numbers[k];
+    if (of.may_be_zero ? !(numbers[k] >= 0.0) : !(numbers[k] > 0.0))
+      return name + "." + of.name + " is " + to_decimal(numbers[k]) +
+             (of.may_be_zero ? ", it must not be negative" : ", it must be positive");
+  }
+  if (filter.kind->is_prewarped && sample_time * numbers.front() >= 0.5)
+    return name + "." + filter.kind->numbers[0].name + " is " + to_decimal(numbers.front()) +
+           " Hz, it must be below half of the sampling rate, " + to_decimal(0.5 / sample_time) +
+           " Hz";
+  return "";
+}
+
+}  // namespace
+
 std::string find_impossible(const ControllerDescription& description,
                             const ControllerConstants<double>& constants) {
   const ControlRealization& realization = description.realization;
+  const std::string name = "controllers." + description.name + ".";
+  const bool is_smooth = !realization.is_sampled();
+  std::string fault;
+  if (realization.i_clamp) fault = find_bad_bounds(name + "i_clamp", constants.i_clamp, is_smooth);
+  if (fault.empty() && realization.output_limit)
+    fault = find_bad_bounds(name + "output_limit", constants.output_limit,
+                            is_smooth && !realization.limit_has_corners);
   const struct {
     const char* name;
     bool exists;
     double value;
   } numbers[] = {
-      {"i_clamp", realization.i_clamp.has_value(), constants.i_clamp},
       {"derivative_filter", realization.derivative_filter.has_value(), constants.derivative_filter},
-      {"output_limit", realization.output_limit.has_value(), constants.output_limit},
       {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
   for (const auto& number : numbers)
-    if (number.exists && !(number.value > 0.0))
-      return "controllers." + description.name + "." + number.name + " is " +
-             to_decimal(number.value) + ", it must be positive";
+    if (fault.empty() && number.exists && !(number.value > 0.0))
+      fault = name + number.name + " is " + to_decimal(number.value) + ", it must be positive";
+  // With the opposite sign what is cut off would drive the integral on.
+  if (fault.empty() && realization.antiwindup == AntiWindup::kBackCalculation &&
+      constants.tracking * constants.pid.i < 0.0)
+    fault = name + (realization.tracking_time ? "tracking_time is " : "tracking_time, p / i, is ") +
+            to_decimal(constants.tracking / constants.pid.i) + ", it must be positive";
+  return fault;
+}
+
+std::string find_impossible_filter(const ControllerDescription& description,
+                                   const std::vector<double>& parameters) {
+  const auto filters = filters_of(description);
+  for (std::size_t k = 0; k < filters.size(); ++k)
+    for (std::size_t stage = 0; stage < filters[k]->size(); ++stage) {
+      const FilterDescription& filter = (*filters[k])[stage];
+      std::vector<double> numbers;
+      for (const Quantity& number : filter.numbers) numbers.push_back(number.at(parameters));
+      const bool is_term = !description.kind->has_error();
+      std::string name = "controllers." + description.name +
+                         (is_term ? ".feedback[" + std::to_string(k) + "]" : "") + ".filter";
+      if (filters[k]->size() > 1) name += "[" + std::to_string(stage) + "]";
+      if (std::string fault =
+              find_bad_filter(filter, name, description.realization.sample_time, numbers);
+          !fault.empty())
+        return fault;
+    }
   return "";
 }
 

@@ -7,6 +7,7 @@
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "control/signal.h"
+#include "control/signal_filter.h"
 #include "description/motion_study.h"
 #include "forces/control_law.h"
 #include "mechanism/coupling.h"
@@ -25,8 +26,23 @@ struct ControllerConstants {
   std::vector<Reference<T>> references;  ///< kStateFeedback: one per term
   ShapedInput<T> shape;                  ///< kBasis
   /// Numbers of ControlRealization; zero if absent.
-  T i_clamp{0.0}, derivative_filter{0.0}, output_limit{0.0}, time_constant{0.0};
+  Bounds<T> i_clamp, output_limit;
+  T derivative_filter{0.0}, time_constant{0.0};
+  T tracking{0.0};  ///< AntiWindup::kBackCalculation: tracking time times gain i, by default p
+  /// As Controller::filters: the sections of each of its inputs.
+  std::vector<std::vector<FilterSection<T>>> filters;
 };
+
+/// Bounds at one design.
+template <class T>
+Bounds<T> bounds_at(const ControlBounds& bounds, const std::vector<T>& parameters) {
+  const T upper = bounds.upper.at(parameters);
+  return {bounds.lower ? bounds.lower->at(parameters) : T(-upper), upper, !bounds.lower};
+}
+
+/// The filters of each input of a controller: of its input, or of the signals of its feedback.
+std::vector<const std::vector<FilterDescription>*> filters_of(
+    const ControllerDescription& description);
 
 /// Evaluates a description at `parameters`, all named parameters. The description must outlive the
 /// result.
@@ -48,11 +64,20 @@ void controller_constants(const ControllerDescription& description,
     c.references[k].set(description.feedback[k].reference, parameters);
   }
   const ControlRealization& realization = description.realization;
-  if (realization.i_clamp) c.i_clamp = realization.i_clamp->at(parameters);
+  if (realization.i_clamp) c.i_clamp = bounds_at(*realization.i_clamp, parameters);
   if (realization.derivative_filter)
     c.derivative_filter = realization.derivative_filter->at(parameters);
-  if (realization.output_limit) c.output_limit = realization.output_limit->at(parameters);
+  if (realization.output_limit) c.output_limit = bounds_at(*realization.output_limit, parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
+  c.tracking =
+      realization.tracking_time ? realization.tracking_time->at(parameters) * c.pid.i : c.pid.p;
+  const auto filters = filters_of(description);
+  c.filters.resize(filters.size());
+  for (std::size_t k = 0; k < filters.size(); ++k) {
+    c.filters[k].clear();
+    for (const FilterDescription& filter : *filters[k])
+      c.filters[k].push_back(section_of(filter, realization.sample_time, parameters));
+  }
   if (description.kind->input == ControlInput::kShape) c.shape.set(description.basis, parameters);
 }
 template <class T>
@@ -67,9 +92,18 @@ ControllerConstants<T> controller_constants(const ControllerDescription& descrip
 /// none. Gains may be anything.
 std::string find_impossible(const ControllerDescription& description,
                             const ControllerConstants<double>& constants);
+/// The same of the numbers of its filters, at these values of all named parameters.
+std::string find_impossible_filter(const ControllerDescription& description,
+                                   const std::vector<double>& parameters);
 
-/// Indices of the extra states of a controller as a robot runs it, theory (50)-(53), or -1.
+/// A filter of a controller: index of its first state, and how many it has.
+struct FilterPlace {
+  int state = -1, order = 0;
+};
+
+/// Indices of the extra states of a controller as a robot runs it, theory (49)-(53), or -1.
 struct ControllerStates {
+  std::vector<std::vector<FilterPlace>> inputs;  ///< the filters of each of its inputs
   int filter = -1;  ///< the filtered error; for a sampled controller the filtered rate of the error
   int last = -1;    ///< sampled: the error at the last sample
   int held = -1;    ///< sampled: the output in effect
@@ -78,10 +112,17 @@ struct ControllerStates {
   int lag = -1;  ///< the effort after the lag of the drive
 };
 
+/// Some of the extra states of a controller.
+struct StatePlace {
+  int first, count;  ///< first is -1 for none
+  const char* name;
+};
+
 /// A controller with its names resolved to indices; ControlLaw describes the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
   Signal input, input_rate;  ///< only if kind->has_error(); input_rate is empty if it is not needed
+  bool has_error_rate = false;   ///< whether the rate of the error is needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
   int pair = -1,
       element = -1;  ///< the driven coordinate: index in Topology::pairs and in the pair's chain
@@ -92,6 +133,11 @@ struct Controller {
   std::vector<Signal> output_rate;
   bool has_output_rate = false;
   DrivenTree tree;  ///< only of laws with a ControlLoad
+
+  /// Whether its states at the start depend on its input.
+  bool has_start() const;
+  /// All its states: those of the same study have the same names in the same order.
+  std::vector<StatePlace> places(int queued) const;
 };
 
 /// Resolves all controllers of a study, in its order.

@@ -3,21 +3,49 @@
 
 #include <optional>
 
+#include <vector>
+
 #include "description/expression.h"
+#include "forces/filter_law.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
+
+/// `[lower, upper]`, or one number for both sides.
+struct ControlBounds {
+  Quantity upper;
+  std::optional<Quantity> lower;  ///< absent: -upper
+};
+
+/// What keeps an integral from growing without use, theory (50), (50a), (50b).
+enum class AntiWindup {
+  kNone,             ///< nothing; i_clamp bounds the integral term alone
+  kClamping,         ///< the integral itself stays within i_clamp
+  kBackCalculation,  ///< what output_limit cuts off draws the integral back
+  kConditional       ///< the integral stops where it leads beyond output_limit
+};
+
+/// A filter of a signal on its way into a controller, theory (49).
+struct FilterDescription {
+  FilterKind kind = FilterKind::kLowPass;
+  std::vector<Quantity> numbers;  ///< in the order of kind->numbers
+  SourceLocation where;
+};
 
 /// How a robot runs a controller, theory (50)-(54): bounds, sampling and the lag of the drive.
 /// Absent numbers have no effect.
 struct ControlRealization {
-  /// kPid: largest magnitude of the integral term [unit of the output]
-  std::optional<Quantity> i_clamp;
-  bool antiwindup = false;  ///< kPid: the integral itself stays within i_clamp, not its term alone
+  std::optional<ControlBounds> i_clamp;       ///< kPid: of the integral term [unit of the output]
+  AntiWindup antiwindup = AntiWindup::kNone;  ///< kPid
+  /// kPid, kBackCalculation: [s]; by default p / i
+  std::optional<Quantity> tracking_time;
   /// kPid: time constant of the low-pass filter on the error's rate [s]
   std::optional<Quantity> derivative_filter;
   /// kPid: d acts on the rate of minus the input, not on that of the error
   bool rates_input = false;
-  std::optional<Quantity> output_limit;   ///< largest magnitude of the output [unit of the output]
+  std::optional<ControlBounds> output_limit;  ///< [unit of the output]
+  /// output_limit has corners, as in samples, also where the controller is continuous, theory (50)
+  bool limit_has_corners = false;
   std::optional<Quantity> time_constant;  ///< of the drive, from the output to the effort [s]
   double sample_time = 0.0;               ///< [s]; 0: the controller is continuous
   /// from a sample to the output that follows from it [s]; sampled controllers only

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "description/control_realization.h"
 #include "description/expression.h"
 #include "mechanism_codesign/error.h"
 
@@ -65,8 +66,9 @@ struct HardwareGains {
   std::string controller;  ///< a `pid` or `pd_gravity` of the study
   /// of ROS parameters, without a slash at either end: "arm_controller/gains/elbow"
   std::string name_space;
-  /// largest effort of the integral term [N m or N]; present if the controller has an `i` gain
-  std::optional<Quantity> i_clamp;
+  /// bounds of the effort of the integral term [N m or N]; present if the controller has an `i`
+  /// gain
+  std::optional<ControlBounds> i_clamp;
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
   SourceLocation where;
 };

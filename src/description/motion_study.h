@@ -49,6 +49,7 @@ struct FeedbackTerm {
   SignalDescription signal;
   ReferenceDescription reference;
   Quantity gain;
+  std::vector<FilterDescription> filters;  ///< of the signal, in the order in which it passes them
 };
 
 /// A controller that drives one joint; the members that are used depend on `kind`.
@@ -57,6 +58,8 @@ struct ControllerDescription {
   ControllerKind kind = ControllerKind::kPid;
   SignalDescription input;        ///< only if kind->has_error()
   ReferenceDescription setpoint;  ///< only if kind->has_error()
+  /// only if kind->has_error(): of the input, in the order in which it passes them
+  std::vector<FilterDescription> filters;
   /// the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
   std::string output;
   Quantity p, i, d;                    ///< gains; only those that kind->gains names

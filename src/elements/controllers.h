@@ -2,6 +2,7 @@
 #pragma once
 
 #include "control/sampled_pid.h"
+#include "elements/control_inputs.h"
 #include "elements/state_view.h"
 #include "forces/control_law.h"
 #include "math/arrays.h"
@@ -9,45 +10,34 @@
 // The control laws, theory (C1)-(C8) and (50).
 namespace codesign {
 
-// Defined in elements/signals.h. Declared here because controllers read signals and signals read
-// controllers.
-template <class T>
-T signal_value(const StateView<T>& view, const Signal& signal);
-
-/// The error e = r - x of a controller, setpoint minus input, in the unit of its input; zero for
-/// laws without an error.
+/// The error e = r - x of a controller, setpoint minus filtered input, in the unit of its input;
+/// zero for laws without an error.
 template <class T>
 T controller_error(const StateView<T>& view, int controller) {
   if (!view.controller(controller).kind->has_error()) return T(0.0);
   return view.controller_numbers(controller).setpoint.at(view.state->t).value -
-         signal_value(view, view.controller(controller).input);
+         control_input(view, controller);
 }
 
-/// e' = r' - x' of (C3); x' is the signal's exact derivative.
+/// e' = r' - x' of (C3); x' is the exact derivative of the input.
 template <class T>
 T controller_error_rate(const StateView<T>& view, int controller) {
   return view.controller_numbers(controller).setpoint.at(view.state->t).rate -
-         signal_value(view, view.controller(controller).input_rate);
-}
-
-/// How a robot runs a controller.
-template <class T>
-const ControlRealization& realization_of(const StateView<T>& view, int controller) {
-  return view.system.study().controllers[to_index(controller)].realization;
+         control_input_rate(view, controller);
 }
 
 /// What the derivative of a PID acts on, theory (C3): e, or -x with `derivative: measurement`.
 template <class T>
 T rated_error(const StateView<T>& view, int controller) {
   if (!realization_of(view, controller).rates_input) return controller_error(view, controller);
-  return -signal_value(view, view.controller(controller).input);
+  return -control_input(view, controller);
 }
 
 /// Its rate: e', or -x'.
 template <class T>
 T rated_error_rate(const StateView<T>& view, int controller) {
   if (!realization_of(view, controller).rates_input) return controller_error_rate(view, controller);
-  return -signal_value(view, view.controller(controller).input_rate);
+  return -control_input_rate(view, controller);
 }
 
 /// The rate of the filtered error, (e - x) / tau of (50).
@@ -71,9 +61,10 @@ ControlValues<T> error_values(const StateView<T>& view, int controller) {
   if (resolved.state >= 0) x.integral = view.state->s[resolved.state];
   if (resolved.states.filter >= 0)
     x.error_rate = filtered_error_rate(view, controller);
-  else if (!resolved.input_rate.empty())
+  else if (resolved.has_error_rate)
     x.error_rate = rated_error_rate(view, controller);
-  if (!realization.i_clamp || realization.antiwindup || resolved.state < 0) return x;
+  const bool clamps_state = realization.antiwindup == AntiWindup::kClamping;
+  if (!realization.i_clamp || clamps_state || resolved.state < 0) return x;
   x.clamped = saturate(T(k.pid.i * x.integral), k.i_clamp).value;
   x.integral = T(0.0);
   return x;
@@ -114,8 +105,8 @@ T state_feedback(const StateView<T>& view, int controller) {
   const ControllerConstants<T>& k = view.controller_numbers(controller);
   T output = k.feedforward.at(view.state->t).value;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    output += k.gains[term] * (k.references[term].at(view.state->t).value -
-                               signal_value(view, view.controller(controller).feedback[term]));
+    output += k.gains[term] *
+              (k.references[term].at(view.state->t).value - feedback_input(view, controller, term));
   return output;
 }
 
@@ -141,6 +132,19 @@ T law_output(const StateView<T>& view, int controller) {
   return view.controller(controller).kind->output.template of<T>(control_values(view, controller));
 }
 
+/// The output of a continuous controller within output_limit, (50), and its derivative by the
+/// output of the law.
+template <class T>
+SaturatedEffort<T> limited_output(const StateView<T>& view, int controller) {
+  const T output = law_output(view, controller);
+  const ControlRealization& realization = realization_of(view, controller);
+  if (!realization.output_limit) return {output, T(1.0)};
+  const Bounds<T>& limit = view.controller_numbers(controller).output_limit;
+  if (!realization.limit_has_corners) return saturate(output, limit);
+  const NamedSwitches<T> named(output, view.controller(controller));
+  return cut(output, limit);
+}
+
 /// The output u of a controller [N or N m], positive along the coordinate that it drives, before
 /// the actuator's limit (13c): of a sampled controller the held output, else the output of the law
 /// within output_limit, (50).
@@ -148,10 +152,7 @@ template <class T>
 T controller_output(const StateView<T>& view, int controller) {
   const int held = view.controller(controller).states.held;
   if (held >= 0) return view.state->s[held];
-  const T output = law_output(view, controller);
-  return realization_of(view, controller).output_limit
-             ? saturate(output, view.controller_numbers(controller).output_limit).value
-             : output;
+  return limited_output(view, controller).value;
 }
 
 /// The effort of the drive: the effort after its lag, (53), else the output itself.
@@ -170,10 +171,24 @@ T integral_rate(const StateView<T>& view, int controller) {
   const ControlRealization& realization = realization_of(view, controller);
   if (realization.is_sampled()) return T(0.0);
   const T error = controller_error(view, controller);
-  if (!realization.antiwindup) return error;
   const ControllerConstants<T>& k = view.controller_numbers(controller);
-  const int s = view.controller(controller).state;
-  return clamped_integral_rate(error, view.state->s[s], k.pid.i, k.i_clamp);
+  switch (realization.antiwindup) {
+    case AntiWindup::kNone:
+      return error;
+    case AntiWindup::kClamping:
+      return clamped_integral_rate(error, T(view.state->s[view.controller(controller).state]),
+                                   k.pid.i, k.i_clamp);
+    case AntiWindup::kBackCalculation: {
+      const T demand = law_output(view, controller);
+      return error - tracked(T(demand - limited_output(view, controller).value), k.tracking);
+    }
+    case AntiWindup::kConditional: {
+      const T demand = law_output(view, controller);
+      const NamedSwitches<T> named(demand, view.controller(controller));
+      return conditional_integral_rate(error, k.pid.i, demand, k.output_limit);
+    }
+  }
+  return error;
 }
 
 /// f' = (u - f) / tau of the effort after the drive's lag, (53).
@@ -196,6 +211,7 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
     (*G)[row] = view.state->z[row] - rate;
   };
   if (resolved.state >= 0) set(resolved.state, integral_rate(view, controller));
+  filter_residual(view, controller, set);
   if (states.filter >= 0)
     set(states.filter, realization.is_sampled() ? T(0.0) : filtered_error_rate(view, controller));
   if (states.last >= 0) set(states.last, T(0.0));

@@ -9,10 +9,15 @@ namespace codesign {
 
 // The rate of the effort of a joint, theory (54).
 
-/// -x' or -x'', the k-th derivative of minus the input of a PID, k = 1 or 2.
+/// -x' or -x'', the k-th derivative of minus the input of a PID, k = 1 or 2; behind filters x'
+/// alone.
 template <class T>
 T input_derivative(const StateView<T>& view, int controller, int k) {
-  return -signal_value(view, view.controller(controller).output_rate[to_index(k - 1)]);
+  const Controller& of = view.controller(controller);
+  const T raw = signal_value(view, of.output_rate[to_index(k - 1)]);
+  return of.states.inputs.front().empty()
+             ? T(-raw)
+             : T(-filtered_rate(view, controller, 0, signal_value(view, of.input), raw));
 }
 
 /// r' - x' or r'' - x'', the k-th derivative of the error of a PID.
@@ -31,7 +36,7 @@ T integral_term_rate(const StateView<T>& view, int controller) {
   const int s = view.controller(controller).state;
   if (s < 0) return T(0.0);
   const T rate = k.pid.i * integral_rate(view, controller);
-  if (!realization.i_clamp || realization.antiwindup) return rate;
+  if (!realization.i_clamp || realization.antiwindup == AntiWindup::kClamping) return rate;
   return saturate(T(k.pid.i * view.state->s[s]), k.i_clamp).slope * rate;
 }
 
@@ -58,8 +63,11 @@ T law_rate(const StateView<T>& view, int controller) {
            derivative_term_rate(view, controller);
   T sum = k.feedforward.at(view.state->t).rate;
   for (std::size_t term = 0; term < k.gains.size(); ++term)
-    sum += k.gains[term] * (k.references[term].at(view.state->t).rate -
-                            signal_value(view, view.controller(controller).output_rate[term]));
+    sum += k.gains[term] *
+           (k.references[term].at(view.state->t).rate -
+            filtered_rate(view, controller, term,
+                          signal_value(view, view.controller(controller).feedback[term]),
+                          signal_value(view, view.controller(controller).output_rate[term])));
   return sum;
 }
 
@@ -69,9 +77,7 @@ T drive_effort_rate(const StateView<T>& view, int controller) {
   if (view.controller(controller).states.lag >= 0) return lag_rate(view, controller);
   const T rate = law_rate(view, controller);
   if (!realization_of(view, controller).output_limit) return rate;
-  return saturate(law_output(view, controller), view.controller_numbers(controller).output_limit)
-             .slope *
-         rate;
+  return limited_output(view, controller).slope * rate;
 }
 
 /// The rate of applied_effort() [N m/s or N/s].

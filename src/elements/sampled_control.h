@@ -12,15 +12,55 @@ namespace codesign {
 // and writes to `s`, the extra states of the state that is loaded, so that a later event at the
 // same instant reads the result of an earlier one.
 
-/// The measured input's error: setpoint minus the input, which is rounded to a multiple of the
-/// quantization if there is one.
+/// An input as it is measured, before its filters: rounded to a multiple of the quantization if
+/// there is one.
 template <class T>
-T measured_error(const StateView<T>& view, int controller) {
-  const T error = controller_error(view, controller);
+T measured_input(const StateView<T>& view, int controller, std::size_t input) {
+  const T raw = signal_value(view, input_of(view.controller(controller), input));
   const double quantum = realization_of(view, controller).quantization;
-  if (!(quantum > 0.0)) return error;
-  const T setpoint = view.controller_numbers(controller).setpoint.at(view.state->t).value;
-  return setpoint - T(quantum) * nearest_integer(T((setpoint - error) / T(quantum)));
+  if (!(quantum > 0.0)) return raw;
+  return T(quantum) * nearest_integer(T(raw / T(quantum)));
+}
+
+/// The measured input's error: setpoint minus the filtered input.
+template <class T>
+T measured_error(const StateView<T>& view, int controller, const VectorX<T>& s) {
+  const T input =
+      FilterChain<T>(view, controller, 0, s).output(measured_input(view, controller, 0));
+  return view.controller_numbers(controller).setpoint.at(view.state->t).value - input;
+}
+
+/// Sets the filters of a controller at rest with their inputs: at the start.
+template <class T>
+void begin_filters(const StateView<T>& view, int controller, VectorX<T>* s) {
+  const bool is_sampled = realization_of(view, controller).is_sampled();
+  const Controller& resolved = view.controller(controller);
+  for (std::size_t input = 0; input < resolved.states.inputs.size(); ++input) {
+    const FilterChain<T> chain(view, controller, input, *s);
+    if (chain.places.empty()) continue;
+    const T u = measured_input(view, controller, input);
+    for (std::size_t k = 0; k < chain.places.size(); ++k) {
+      const FilterRest<T> rest = rest_of(chain.sections[k], is_sampled, u);
+      (*s)[chain.places[k].state] = rest.x1;
+      if (chain.places[k].order == 2) (*s)[chain.places[k].state + 1] = rest.x2;
+    }
+  }
+}
+
+/// Carries the filters of a sampled controller over one sample.
+template <class T>
+void advance_filters(const StateView<T>& view, int controller, VectorX<T>* s) {
+  const Controller& resolved = view.controller(controller);
+  for (std::size_t input = 0; input < resolved.states.inputs.size(); ++input) {
+    const FilterChain<T> chain(view, controller, input, *s);
+    if (chain.places.empty()) continue;
+    chain.output(measured_input(view, controller, input),
+                 [&](const auto& section, const FilterPlace& place, const T& u, const T& y) {
+                   const auto [first, second] = chain.next(section, place, u, y);
+                   (*s)[place.state] = first;
+                   if (place.order == 2) (*s)[place.state + 1] = second;
+                 });
+  }
 }
 
 /// The output of a PID at a sample, before its limit; updates its memory.
@@ -35,10 +75,14 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   };
   SampledPidMemory<T> memory{read(resolved.state), read(resolved.states.last),
                              read(resolved.states.filter)};
-  const SampledPidNumbers<T> numbers{k.pid, realization.sample_time, k.derivative_filter,
+  const SampledPidNumbers<T> numbers{k.pid,
+                                     realization.sample_time,
+                                     k.derivative_filter,
                                      realization.i_clamp ? &k.i_clamp : nullptr,
-                                     realization.antiwindup};
-  const T error = measured_error(view, controller);
+                                     realization.antiwindup,
+                                     realization.output_limit ? &k.output_limit : nullptr,
+                                     k.tracking};
+  const T error = measured_error(view, controller, *s);
   const T rated = realization.rates_input ? T(error - k.setpoint.at(view.state->t).value) : error;
   const T output = sample_pid(numbers, error, rated, is_first, &memory);
   write(resolved.state, memory.integral);
@@ -47,12 +91,21 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   return output;
 }
 
-/// The output of a controller at a sample, within its limit; updates its memory in `s`.
+/// The output of a controller at a sample, within its limit; updates its memory in `s`. At the
+/// start of a continuous controller, `is_first`, its filters are set at rest; 0.
+/// @param s of the loaded state itself.
 template <class T>
 T sample_controller(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
+  if (is_first) begin_filters(view, controller, s);
+  if (!realization_of(view, controller).is_sampled()) {
+    const int filter = view.controller(controller).states.filter;
+    if (filter >= 0) (*s)[filter] = rated_error(view, controller);
+    return T(0.0);
+  }
   const T output = view.controller(controller).kind->is_pid
                        ? sampled_pid_output(view, controller, is_first, s)
                        : law_output(view, controller);
+  advance_filters(view, controller, s);
   return realization_of(view, controller).output_limit
              ? clamp(output, view.controller_numbers(controller).output_limit)
              : output;
@@ -79,18 +132,15 @@ void jump_controller(const System& system, const ControlEvent& event, const Samp
     (*s)[place] = sample(event.controller, event.sample == 0);
 }
 
-/// The start of a controller at t = 0: its filter is at rest, and a sampled one takes its first
-/// sample.
-/// @param sample as of jump_controller(). @param rated controller -> its rated_error().
-template <class T, class Sample, class Rated>
-void begin_controller(const System& system, int controller, const Sample& sample,
-                      const Rated& rated, VectorX<T>* s) {
-  const auto c = to_index(controller);
-  const int filter = system.controllers()[c].states.filter;
-  if (system.study().controllers[c].realization.is_sampled())
+/// The start of a controller at t = 0: its filters are at rest, and a sampled one takes its first
+/// sample. @param sample as of jump_controller().
+template <class T, class Sample>
+void begin_controller(const System& system, int controller, const Sample& sample, VectorX<T>* s) {
+  const Controller& resolved = system.controllers()[to_index(controller)];
+  if (resolved.states.held >= 0)
     jump_controller(system, {ControlEvent::Kind::kSample, controller, 0}, sample, s);
-  else if (filter >= 0)
-    (*s)[filter] = rated(controller);
+  else if (resolved.has_start())
+    sample(controller, true);
 }
 
 }  // namespace codesign

@@ -98,8 +98,7 @@ class CompiledEquations {
   void stuck_slips(const State<T>& state, VectorX<T>* accelerations, VectorX<T>* limits);
   /// begin_bristles() at a state; other states stay.
   void begin_bristles(State<T>* state);
-  /// The error of a controller; its output at a sample, which updates its memory in state->s.
-  T rated_error(int controller, const State<T>& state);
+  /// The output of a controller at a sample, or its start: sample_controller().
   T sample(int controller, bool is_first, State<T>* state);
 
   /// The derivatives of one function along N directions of state and design, for T = Lanes<N> only.

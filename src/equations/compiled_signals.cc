@@ -93,11 +93,6 @@ void CompiledEquations<T>::begin_bristles(State<T>* state) {
 }
 
 template <class T>
-T CompiledEquations<T>::rated_error(int controller, const State<T>& state) {
-  return signal(controller_function(controller, ControllerFunction::kError), state);
-}
-
-template <class T>
 T CompiledEquations<T>::sample(int controller, bool is_first, State<T>* state) {
   T output(0.0);
   s_.resize(state->s.size());
@@ -150,7 +145,6 @@ T CompiledEquations<T>::signal(EquationFunction function, const State<T>& state,
   template void CompiledEquations<T>::track_turns(State<T>*);                                     \
   template void CompiledEquations<T>::stuck_slips(const State<T>&, VectorX<T>*, VectorX<T>*);     \
   template void CompiledEquations<T>::begin_bristles(State<T>*);                                  \
-  template T CompiledEquations<T>::rated_error(int, const State<T>&);                             \
   template T CompiledEquations<T>::sample(int, bool, State<T>*);
 CODESIGN_FOR_EACH_VALUE_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE

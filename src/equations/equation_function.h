@@ -53,8 +53,8 @@ enum class EquationFunction : std::size_t {
   kTurns,          ///< the joint positions in State::turns
   kStuckSlips,     ///< stuck_slips(): accelerations, limits
   kBristles,       ///< the extra states after begin_bristles()
-  /// three functions of each controller: its error; the output and the extra states after its first
-  /// sample; after others
+  /// two functions of each controller: the output and the extra states after its first sample, or
+  /// the start of a continuous one; after others
   kFirstController
 };
 
@@ -67,7 +67,7 @@ constexpr EquationFunction with_gradient(EquationFunction function) {
 }
 
 /// A function of a controller.
-enum class ControllerFunction : std::size_t { kError, kFirstSample, kSample, kEnd };
+enum class ControllerFunction : std::size_t { kFirstSample, kSample, kEnd };
 constexpr EquationFunction controller_function(int controller, ControllerFunction which) {
   return static_cast<EquationFunction>(to_index(EquationFunction::kFirstController) +
                                        to_index(ControllerFunction::kEnd) * to_index(controller) +

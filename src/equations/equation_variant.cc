@@ -38,7 +38,7 @@ std::size_t count_functions(const System& system, EquationPart part) {
   if (part == EquationPart::kSignals) return to_index(watched_function(system.watched().size()));
   if (part != EquationPart::kStart) return to_index(EquationFunction::kMotionEnd);
   return to_index(controller_function(static_cast<int>(system.controllers().size()),
-                                      ControllerFunction::kError));
+                                      ControllerFunction::kFirstSample));
 }
 
 /// Whether the derivative of a node is an input of the tangent code. Entries of the state and
@@ -227,19 +227,17 @@ void EquationVariant::record_start(EquationRecorder* equations) {
     });
   for (std::size_t k = 0; k < system_.controllers().size(); ++k) {
     const auto controller = static_cast<int>(k);
-    formulas.load(state);
-    record(controller_function(controller, ControllerFunction::kError), [&] {
-      return std::vector<VectorX<Traced>>{
-          VectorX<Traced>::Constant(1, formulas.rated_error(controller))};
-    });
-    if (!system_.study().controllers[k].realization.is_sampled()) continue;
+    const bool is_sampled = system_.study().controllers[k].realization.is_sampled();
+    if (!system_.controllers()[k].has_start()) continue;
     for (const auto which : {ControllerFunction::kFirstSample, ControllerFunction::kSample}) {
-      at(controller_function(controller, which)).has_products = true;
+      if (!is_sampled && which == ControllerFunction::kSample) continue;
+      at(controller_function(controller, which)).has_products = is_sampled;
       record(controller_function(controller, which), [&] {
-        VectorX<Traced> s = state.s;
+        State<Traced> sampled = state;
+        formulas.load(sampled);
         const Traced output =
-            formulas.sample(controller, which == ControllerFunction::kFirstSample, &s);
-        return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, output), s};
+            formulas.sample(controller, which == ControllerFunction::kFirstSample, &sampled.s);
+        return std::vector<VectorX<Traced>>{VectorX<Traced>::Constant(1, output), sampled.s};
       });
     }
   }

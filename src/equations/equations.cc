@@ -125,14 +125,8 @@ void Equations<T>::begin_controllers(State<T>* state) {
   const auto sampled = [&](int controller, bool is_first) {
     return sample(controller, is_first, state);
   };
-  const auto rated = [&](int controller) {
-    if constexpr (kIsReal)
-      return formulas_->rated_error(controller);
-    else
-      return start_.rated_error(controller, *state);
-  };
   for (std::size_t c = 0; c < system_.controllers().size(); ++c)
-    begin_controller(system_, static_cast<int>(c), sampled, rated, &state->s);
+    begin_controller(system_, static_cast<int>(c), sampled, &state->s);
 }
 
 template <class T>

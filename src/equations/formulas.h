@@ -104,7 +104,6 @@ class Formulas {
   T setpoint(int controller) const;
   T controller_output(int controller) const;
   T controller_error(int controller) const;
-  T rated_error(int controller) const;  ///< what its derivative acts on
   /// Reaction force F'' [N] and torque T'' [N m] in the joint axes of body i, theory (11); the
   /// child feels -F'' and -T''. Components that the pair does not constrain are zero.
   void reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const;

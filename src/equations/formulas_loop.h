@@ -225,11 +225,6 @@ T Formulas<T>::controller_error(int controller) const {
 }
 
 template <class T>
-T Formulas<T>::rated_error(int controller) const {
-  return codesign::rated_error(view_, controller);
-}
-
-template <class T>
 void Formulas<T>::reaction(int pair, Vector3<T>* F, Vector3<T>* torque) const {
   pair_reaction(view_, pair, F, torque);
 }

@@ -44,6 +44,38 @@ SaturatedEffort<T> saturate(const T& u, const T& u_max) {
   return {sign * u_max / root, sign * r8 * r / root9};
 }
 
+/// Bounds of a number, lower <= 0 <= upper, in its unit.
+template <class T>
+struct Bounds {
+  T lower{0.0}, upper{0.0};
+  bool is_symmetric = true;  ///< lower = -upper, so that no side needs to be chosen
+
+  /// The magnitude of the bound on the side of x.
+  T beside(const T& x) const {
+    return !is_symmetric && is_less(x, T(0.0), false) ? T(-lower) : upper;
+  }
+};
+
+/// saturate() with a bound of its own on each side of zero; lower < 0 < upper. At zero, where the
+/// sides meet, it has eight continuous derivatives.
+template <class T>
+SaturatedEffort<T> saturate(const T& u, const Bounds<T>& bounds) {
+  return saturate(u, bounds.beside(u));
+}
+
+/// The switches of an output limit with corners, for the names of events.
+enum LimitPart { kUpperLimit, kLowerLimit, kErrorAtLimit };
+
+/// u within its bounds, with corners that are events, theory (50).
+template <class T>
+SaturatedEffort<T> cut(const T& u, const Bounds<T>& bounds) {
+  name_part(u, kUpperLimit);
+  if (is_below_kink(bounds.upper, u, false)) return {bounds.upper, T(0.0)};
+  name_part(u, kLowerLimit);
+  if (is_below_kink(u, bounds.lower, false)) return {bounds.lower, T(0.0)};
+  return {u, T(1.0)};
+}
+
 /// The values that a control law is a function of; what ControlLaw does not ask for is zero.
 template <class T>
 struct ControlValues {

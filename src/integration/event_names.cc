@@ -135,6 +135,13 @@ SwitchName name_of(const System& system, const SwitchOrigin* origin) {
             std::string(bristle->gear ? "gear: " : "") +
                 (origin->part == kBristleCut ? "friction at its limit" : "end of the dwell")};
   }
+  if (const auto* controller = source.as<Controller>()) {
+    constexpr std::array<const char*, 3> kParts{"upper output_limit", "lower output_limit",
+                                                "sign of the error beyond output_limit"};
+    const auto c = to_index(controller - system.controllers().data());
+    const ControllerDescription& of = system.study().controllers[c];
+    return {"controllers." + of.name, of.output, kParts.at(to_index(origin->part))};
+  }
   SwitchName name = FormulaPlaces(system).find(source, origin->part);
   if (name.element.empty()) name.element = "study";
   if (const auto* formula = source.as<ResolvedFormula>())

@@ -96,11 +96,12 @@ Status check_design(const CompiledSystem& system, const Equations<double>& equat
               "loop '" + pair.name + "' is not planar: " + fault.message + ", " + fault.value};
   }
   const std::vector<ControllerDescription>& controllers = system.study().controllers;
-  for (std::size_t c = 0; c < controllers.size(); ++c)
-    if (std::string fault =
-            find_impossible(controllers[c], equations.formulas().view().design.controllers[c]);
-        !fault.empty())
-      return {StatusCode::kInvalidDesign, 0.0, fault};
+  for (std::size_t c = 0; c < controllers.size(); ++c) {
+    std::string fault =
+        find_impossible(controllers[c], equations.formulas().view().design.controllers[c]);
+    if (fault.empty()) fault = find_impossible_filter(controllers[c], equations.parameters());
+    if (!fault.empty()) return {StatusCode::kInvalidDesign, 0.0, fault};
+  }
   if (std::string fault = find_impossible_scale(system, equations.formulas().view().design);
       !fault.empty())
     return {StatusCode::kInvalidDesign, 0.0, fault};

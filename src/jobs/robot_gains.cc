@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "control/controller.h"
 #include "description/study.h"
 #include "jobs/json.h"
 #include "problem/load_problem.h"
@@ -31,11 +32,15 @@ std::string yaml_number(double value) {
 
 /// The parameters that control_toolbox::Pid reads, in its order.
 Json pid_parameters(const RobotGains& gains) {
-  return {{"p", gains.p},
-          {"i", gains.i},
-          {"d", gains.d},
-          {"i_clamp", gains.i_clamp},
-          {"antiwindup", gains.antiwindup}};
+  Json parameters{{"p", gains.p}, {"i", gains.i}, {"d", gains.d}};
+  if (gains.i_clamp_min == -gains.i_clamp_max) {
+    parameters["i_clamp"] = gains.i_clamp_max;
+  } else {
+    parameters["i_clamp_max"] = gains.i_clamp_max;
+    parameters["i_clamp_min"] = gains.i_clamp_min;
+  }
+  parameters["antiwindup"] = gains.antiwindup;
+  return parameters;
 }
 
 /// The object at a namespace; creates missing parts of the namespace.
@@ -65,6 +70,25 @@ void write_block(const Json& object, std::size_t depth, std::string* text) {
   }
 }
 
+/// What control_toolbox::Pid does not know, in the words of the study.
+std::vector<std::string> missing_of(const ControllerDescription& controller) {
+  const ControlRealization& realization = controller.realization;
+  const struct {
+    bool is_there;
+    const char* name;
+  } all[] = {
+      {!controller.filters.empty(), "filter"},
+      {realization.output_limit.has_value(), "output_limit"},
+      {realization.antiwindup == AntiWindup::kBackCalculation, "antiwindup: back_calculation"},
+      {realization.antiwindup == AntiWindup::kConditional, "antiwindup: conditional"},
+      {realization.derivative_filter.has_value(), "derivative_filter"},
+      {realization.rates_input, "derivative: measurement"}};
+  std::vector<std::string> missing;
+  for (const auto& one : all)
+    if (one.is_there) missing.emplace_back(one.name);
+  return missing;
+}
+
 }  // namespace
 
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters) {
@@ -84,7 +108,12 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
     found.p = controller.p.at(parameters);
     found.i = controller.i.at(parameters);
     found.d = controller.d.at(parameters);
-    found.i_clamp = gains.i_clamp ? gains.i_clamp->at(parameters) : 0.0;
+    if (gains.i_clamp) {
+      const Bounds<double> bounds = bounds_at(*gains.i_clamp, parameters);
+      found.i_clamp_min = bounds.lower;
+      found.i_clamp_max = bounds.upper;
+    }
+    found.missing = missing_of(controller);
     found.antiwindup = gains.antiwindup;
     all.push_back(std::move(found));
   }
@@ -104,6 +133,8 @@ std::string gains_yaml(const Problem& problem, const std::vector<double>& parame
             " of the study, which drives " + in_comment(gains.joint);
     if (gains.loses_weight)
       text += "; in the study it also carries the weight, which is not among these gains";
+    for (std::size_t k = 0; k < gains.missing.size(); ++k)
+      text += (k == 0 ? "; not in these gains, as the study has it: " : ", ") + gains.missing[k];
     text += "\n";
     at_namespace(gains.name_space, &root) = pid_parameters(gains);
   }

@@ -17,8 +17,11 @@ struct RobotGains {
   /// whether the controller also compensates gravity in the study, which these gains do not
   bool loses_weight = false;
   double p = 0.0, i = 0.0, d = 0.0;
-  double i_clamp = 0.0;     ///< largest effort of the integral term [N m or N]
+  /// bounds of the effort of the integral term [N m or N], lower <= 0 <= upper
+  double i_clamp_min = 0.0, i_clamp_max = 0.0;
   bool antiwindup = false;  ///< whether the integral of the error itself stays within i_clamp / i
+  /// what the controller of the study does, and control_toolbox::Pid with these gains does not
+  std::vector<std::string> missing;
 };
 
 /// The gains of the controllers that `hardware:` names, in its order; empty without it.
@@ -26,9 +29,11 @@ struct RobotGains {
 std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<double>& parameters);
 
 /// The gains of the controllers that `hardware:` names, as ROS parameters for `rosparam load`: p,
-/// i, d, i_clamp and antiwindup, as control_toolbox::Pid reads them, below the namespace of each
-/// controller. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in the study and
-/// on the robot, in SI units. Numbers read back as the same doubles. Empty without `hardware:`.
+/// i, d, i_clamp, or i_clamp_max and i_clamp_min where they differ, and antiwindup, as
+/// control_toolbox::Pid reads them, below the namespace of each controller; comments say what a
+/// controller does besides. Effort = p e + i int e dt + d de/dt with e = setpoint - measured, in
+/// the study and on the robot, in SI units. Numbers read back as the same doubles. Empty without
+/// `hardware:`.
 /// @param parameters all named parameters.
 std::string gains_yaml(const Problem& problem, const std::vector<double>& parameters);
 

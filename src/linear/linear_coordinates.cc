@@ -129,16 +129,16 @@ std::vector<std::string> linear_state_names(const CompiledSystem& system,
   for (std::size_t c = 0; c < system.controllers().size(); ++c) {
     const Controller& controller = system.controllers()[c];
     const std::string of = system.study().controllers[c].name + "/";
-    const auto set = [&](int state, const std::string& name) {
-      if (state >= 0) names[first + to_index(state)] = of + name;
-    };
-    set(controller.state, "integral");
-    set(controller.states.filter, "filter");
-    set(controller.states.last, "last_error");
-    set(controller.states.held, "held");
-    for (int k = 0; k < system.study().controllers[c].realization.queued(); ++k)
-      set(controller.states.queue + k, "queue[" + std::to_string(k) + "]");
-    set(controller.states.lag, "lag");
+    int filters = 0;
+    for (const StatePlace& place :
+         controller.places(system.study().controllers[c].realization.queued()))
+      for (int k = 0; place.first >= 0 && k < place.count; ++k) {
+        const std::string name = place.name;
+        const bool is_list = name == "queue" || name == "feedback_filter";
+        const int number = name == "feedback_filter" ? filters++ : k;
+        names[first + to_index(place.first + k)] =
+            of + name + (is_list ? "[" + std::to_string(number) + "]" : "");
+      }
   }
   return names;
 }

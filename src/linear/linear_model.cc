@@ -66,12 +66,9 @@ std::string listed(const std::vector<std::string>& words) {
 int controller_states(const System& system) {
   int count = 0;
   for (std::size_t c = 0; c < system.controllers().size(); ++c) {
-    const Controller& of = system.controllers()[c];
     const int queued = system.study().controllers[c].realization.queued();
-    const int last_of_queue = queued > 0 ? of.states.queue + queued - 1 : -1;
-    for (const int state :
-         {of.state, of.states.filter, of.states.last, of.states.held, last_of_queue, of.states.lag})
-      count = std::max(count, state + 1);
+    for (const StatePlace& place : system.controllers()[c].places(queued))
+      if (place.first >= 0) count = std::max(count, place.first + place.count);
   }
   return count;
 }
@@ -86,14 +83,11 @@ State<double> carried(const State<double>& state, const System& from, const Syst
       result.s.segment(new_place, count) = state.s.segment(old_place, count);
   };
   for (std::size_t c = 0; c < from.controllers().size(); ++c) {
-    const Controller &old_one = from.controllers()[c], &new_one = to.controllers()[c];
-    carry(old_one.state, new_one.state, 1);
-    carry(old_one.states.filter, new_one.states.filter, 1);
-    carry(old_one.states.last, new_one.states.last, 1);
-    carry(old_one.states.held, new_one.states.held, 1);
-    carry(old_one.states.queue, new_one.states.queue,
-          from.study().controllers[c].realization.queued());
-    carry(old_one.states.lag, new_one.states.lag, 1);
+    const int queued = from.study().controllers[c].realization.queued();
+    const std::vector<StatePlace> old_places = from.controllers()[c].places(queued),
+                                  new_places = to.controllers()[c].places(queued);
+    for (std::size_t k = 0; k < old_places.size(); ++k)
+      carry(old_places[k].first, new_places[k].first, old_places[k].count);
   }
   const int old_first = controller_states(from), new_first = controller_states(to);
   carry(old_first, new_first, from.layout().states - old_first);

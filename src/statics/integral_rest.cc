@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/controller.h"
 #include "description/study.h"
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -49,13 +50,13 @@ Status check_bounds(const RestingMechanism& mechanism, const std::vector<double>
   for (std::size_t c = 0; c < integrals.size(); ++c) {
     const ControllerDescription& controller = study.controllers[c];
     if (!controller.realization.i_clamp) continue;
-    const double bound = controller.realization.i_clamp->at(parameters);
+    const Bounds<double> bounds = bounds_at(*controller.realization.i_clamp, parameters);
     const double term = controller.i.at(parameters) * integrals[c];
-    if (std::abs(term) > bound)
+    if (term < bounds.lower || term > bounds.upper)
       return {StatusCode::kNoEquilibrium, 0.0,
               "no posture at rest without error: the integral of controller \"" + controller.name +
                   "\" would have to give " + readable(term, 6) + ", and i_clamp allows " +
-                  readable(bound, 6)};
+                  readable(term < bounds.lower ? bounds.lower : bounds.upper, 6)};
   }
   return {};
 }

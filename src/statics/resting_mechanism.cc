@@ -23,7 +23,8 @@ ReferenceDescription held(const ReferenceDescription& function,
 ControlRealization settled(const ControlRealization& of) {
   ControlRealization statically;
   statically.output_limit = of.output_limit;
-  if (!of.antiwindup && !of.is_sampled()) statically.i_clamp = of.i_clamp;
+  statically.limit_has_corners = of.limit_has_corners || of.is_sampled();
+  if (of.antiwindup != AntiWindup::kClamping && !of.is_sampled()) statically.i_clamp = of.i_clamp;
   return statically;
 }
 
@@ -31,7 +32,12 @@ void hold(const std::vector<double>& parameters, ControllerDescription* controll
   if (controller->i.at(parameters) == 0.0) controller->i = Quantity(0.0);
   controller->setpoint = held(controller->setpoint, parameters);
   controller->feedforward = held(controller->feedforward, parameters);
-  for (FeedbackTerm& term : controller->feedback) term.reference = held(term.reference, parameters);
+  // At rest the output of a filter is its input.
+  controller->filters.clear();
+  for (FeedbackTerm& term : controller->feedback) {
+    term.reference = held(term.reference, parameters);
+    term.filters.clear();
+  }
   controller->realization = settled(controller->realization);
 }
 

@@ -227,9 +227,8 @@ void System::check_signals() const {
 }
 
 bool System::begins_controllers() const {
-  return std::any_of(controllers_.begin(), controllers_.end(), [](const Controller& controller) {
-    return controller.states.filter >= 0 || controller.states.held >= 0;
-  });
+  return std::any_of(controllers_.begin(), controllers_.end(),
+                     [](const Controller& controller) { return controller.has_start(); });
 }
 
 void System::find_coordinates() {

@@ -48,16 +48,51 @@ TEST(ControllerConstants, ImpossibleNumbersOfADesignAreNamed) {
   for (const Parameter& parameter : study.parameters) parameters.push_back(parameter.value);
   const ControllerDescription& description = study.controllers.at(0);
   ControllerConstants<double> constants = controller_constants(description, parameters);
-  EXPECT_EQ(constants.i_clamp, 2.0);
-  EXPECT_EQ(constants.output_limit, 4.0);
+  EXPECT_EQ(constants.i_clamp.upper, 2.0);
+  EXPECT_EQ(constants.i_clamp.lower, -2.0);
+  EXPECT_EQ(constants.output_limit.upper, 4.0);
   EXPECT_EQ(constants.derivative_filter, 2.0);
   EXPECT_EQ(constants.time_constant, 1.0);
   EXPECT_EQ(find_impossible(description, constants), "");
   constants.time_constant = -1.0;
   EXPECT_EQ(find_impossible(description, constants),
             "controllers.speed.time_constant is -1, it must be positive");
-  constants.i_clamp = 0.0;
+  constants.i_clamp.upper = 0.0;
   EXPECT_NE(find_impossible(description, constants).find("i_clamp is 0"), std::string::npos);
+}
+
+TEST(ControllerConstants, ImpossibleBoundsAndFiltersAreNamed) {
+  const Study study = read_text(
+      kLeastStudy +
+      "controllers:\n  speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: "
+      "crank_joint, gains: {p: 1, i: 1}, i_clamp: [-1, 2], output_limit: [0, 3], antiwindup: "
+      "back_calculation, filter: {type: notch, frequency: 4, damping: 0.5}}\n");
+  ControllerDescription description = study.controllers.at(0);
+  const auto fault = [&description](double ControllerConstants<double>::*member, double value) {
+    ControllerConstants<double> constants =
+        controller_constants(description, std::vector<double>{});
+    constants.*member = value;
+    return find_impossible(description, constants);
+  };
+  EXPECT_EQ(fault(&ControllerConstants<double>::tracking, 1.0), "");
+  EXPECT_EQ(fault(&ControllerConstants<double>::tracking, -2.0),
+            "controllers.speed.tracking_time, p / i, is -2, it must be positive");
+  ControllerConstants<double> constants = controller_constants(description, std::vector<double>{});
+  constants.i_clamp.lower = 0.0;
+  EXPECT_EQ(find_impossible(description, constants),
+            "the lower bound of controllers.speed.i_clamp is 0, it must be negative");
+  constants.i_clamp.lower = -1.0;
+  constants.output_limit.lower = 0.5;
+  EXPECT_EQ(find_impossible(description, constants),
+            "the lower bound of controllers.speed.output_limit is 0.5, it must not be positive");
+  EXPECT_EQ(find_impossible_filter(description, {}), "");
+  description.realization.sample_time = 0.125;
+  EXPECT_EQ(find_impossible_filter(description, {}),
+            "controllers.speed.filter.frequency is 4 Hz, it must be below half of the sampling "
+            "rate, 4 Hz");
+  description.filters[0].numbers[1] = -1.0;
+  EXPECT_EQ(find_impossible_filter(description, {}),
+            "controllers.speed.filter.damping is -1, it must be positive");
 }
 
 struct Resolved {
@@ -125,6 +160,37 @@ TEST(Controller, WhatARobotsControllerRemembersAreStates) {
   EXPECT_EQ(sampled.controllers.at(0).states.queue, 3);
   EXPECT_EQ(sampled.controllers.at(1).states.held, 6);
   EXPECT_EQ(sampled.controllers.at(1).states.queue, -1);
+}
+
+TEST(Controller, FiltersHaveStatesAndRates) {
+  const auto resolved = [](const std::string& keys) {
+    return Resolved("  a: {input: shoulder/velocity, setpoint: 0.0, output: shoulder, " + keys +
+                    "}\n");
+  };
+  const std::string two =
+      "filter: [{type: low_pass_2, frequency: 3}, {type: lead_lag, zero: 2, pole: 9}]";
+  const Resolved filtered = resolved("type: pid, gains: {p: 1.0, i: 1.0, d: 1.0}, " + two);
+  EXPECT_EQ(filtered.states, 4);
+  const std::vector<FilterPlace>& places = filtered.controllers.at(0).states.inputs.at(0);
+  EXPECT_EQ(places.at(0).state, 1);
+  EXPECT_EQ(places.at(1).state, 3);
+  EXPECT_TRUE(filtered.controllers.at(0).has_error_rate);
+  EXPECT_TRUE(filtered.controllers.at(0).input_rate.empty()) << "a low-pass gives the rate itself";
+  EXPECT_FALSE(resolved("type: pid, gains: {d: 1.0}, filter: {type: lead_lag, zero: 2, pole: 9}")
+                   .controllers.at(0)
+                   .input_rate.empty());
+  EXPECT_THROW(Resolved("  a: {type: pid, input: shoulder/acceleration, setpoint: 0.0, output: "
+                        "shoulder, gains: {p: 1.0}, " +
+                        two + "}\n"),
+               InputError);
+  // A sampled filter gives no rate.
+  EXPECT_NO_THROW(
+      resolved("type: pid, gains: {d: 1.0}, sample_time: 0.1, filter: {type: low_pass, "
+               "frequency: 3}"));
+  EXPECT_THROW(
+      Resolved("  a: {type: pd_gravity, output: shoulder, setpoint: 0.0, gains: {p: 1.0, d: 1.0}, "
+               "sample_time: 0.1, filter: {type: low_pass, frequency: 3}}\n"),
+      InputError);
 }
 
 TEST(Controller, SampledOnesReadWhatTheyDoNotDetermine) {

@@ -59,6 +59,47 @@ TEST(ControllerStates, HaveExactDerivatives) {
       terms);
 }
 
+const std::string kNotch = "{type: notch, frequency: 3.0, damping: 0.4, depth: 0.1}";
+const std::string kLag = "{type: lead_lag, zero: 5.0, pole: 0.7}";
+
+TEST(ControllerStates, OfFiltersAndAntiWindupHaveExactDerivatives) {
+  const std::string terms = "{signal: a/output + shoulder/effort}";
+  for (const std::string& filter :
+       {kNotch, "[" + kNotch + ", " + kLag + ", {type: low_pass_2, frequency: 2.0}]"}) {
+    const std::string keys = "gains: {p: 3.0, i: 2.0, d: 0.5}, filter: " + filter;
+    for (const char* more : {"", ", derivative: measurement", ", derivative_filter: 0.02",
+                             ", sample_time: 0.01, delay: 0.025"})
+      expect_exact_rates(pid(keys + more), terms);
+    expect_exact_rates("type: pd_gravity, gains: {p: 3.0, d: 0.5}, setpoint: " +
+                           std::string(kSwing) + ", filter: " + filter,
+                       terms);
+    expect_exact_rates(
+        "type: state_feedback, feedback: [{signal: elbow/position, gain: 2.0, filter: " + filter +
+            "}, {signal: shoulder/velocity, gain: 0.3}]",
+        terms);
+  }
+  for (const char* limit : {"40.0", "0.01", "[-0.2, 5.0]"})
+    for (const char* method :
+         {"back_calculation", "back_calculation, tracking_time: 0.3", "conditional"})
+      for (const char* sign : {"", "-"})
+        expect_exact_rates(pid("gains: {p: " + std::string(sign) + "3.0, i: " + sign +
+                               "2.0}, output_limit: " + limit + ", antiwindup: " + method),
+                           terms);
+}
+
+TEST(EffortRate, BehindFiltersAndLimitsHasExactDerivatives) {
+  const std::string terms = "{signal: shoulder/effort_rate}";
+  const std::string filters = ", filter: [" + kNotch + ", " + kLag + "]";
+  expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}" + filters), terms);
+  expect_exact_rates(pid("gains: {p: 3.0, d: 0.5}, derivative_filter: 0.02" + filters), terms);
+  expect_exact_rates(
+      pid("gains: {p: 3.0, i: 2.0}, output_limit: [-0.2, 9.0], antiwindup: back_calculation"),
+      terms);
+  expect_exact_rates(
+      "type: state_feedback, feedback: [{signal: elbow/position, gain: 2.0" + filters + "}]",
+      terms);
+}
+
 TEST(EffortRate, HasExactDerivatives) {
   const std::string terms = "{signal: shoulder/effort_rate}";
   expect_exact_rates(pid("gains: {p: 3.0, i: 2.0}"), terms);

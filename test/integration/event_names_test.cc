@@ -65,6 +65,18 @@ TEST(EventNames, FunctionsRiseWithTheirArgument) {
   expect_event(events.list[6], 1.9, "loads[0].effort, \"max(0, t - 1.9)\", rising, a kink");
 }
 
+// x = t, and what the controller adds is rounding.
+TEST(EventNames, TheLimitOfAController) {
+  const Events events = events_of_run(
+      std::string(kMoving) +
+      "controllers: {servo: {type: pid, input: slide/position, setpoint: 0, output: slide, gains: "
+      "{p: 1.0e-11, i: 1.0e-21}, output_limit: [-5.0e-12, 9.0e-12], antiwindup: "
+      "back_calculation}}\n");
+  ASSERT_EQ(events.list.size(), 1u);
+  expect_event(events.list[0], 0.5, "controllers.servo, \"lower output_limit\", rising, a kink");
+  EXPECT_EQ(events.list[0].object, "slide");
+}
+
 TEST(EventNames, ControllersAndObjectives) {
   const Events events = events_of_run(
       std::string(kMoving) +

@@ -20,7 +20,7 @@ TEST(RobotGainsOfAStudy, AreThoseOfTheDesign) {
   EXPECT_EQ(all[0].name_space, "arm_controller/gains/hinge");
   EXPECT_EQ(all[0].controller, "hold");
   EXPECT_EQ(all[0].joint, "hinge");
-  EXPECT_EQ((std::vector<double>{all[0].p, all[0].i, all[0].d, all[0].i_clamp}),
+  EXPECT_EQ((std::vector<double>{all[0].p, all[0].i, all[0].d, all[0].i_clamp_max}),
             (std::vector<double>{3.25, 0.25, 0.0, 2.0}));
   EXPECT_TRUE(all[0].antiwindup);
   EXPECT_FALSE(all[0].loses_weight);
@@ -58,6 +58,37 @@ TEST(GainsYaml, HoldsWhatControlToolboxReads) {
   // rosparam takes a number without a decimal point and with an exponent for a text.
   EXPECT_NE(text.find("p: 1.0e-06"), std::string::npos) << text;
   EXPECT_NE(text.find("d: 0.0\n"), std::string::npos) << text;
+}
+
+/// The text of the pendulum whose controller has further keys; its hardware entry has no clamp.
+std::string gains_with(const std::string& keys) {
+  const Problem problem = pendulum_on_hardware();
+  const std::string bare =
+      replaced(problem.study_text().text, ", i_clamp: 2.0, antiwindup: true}", "}");
+  const Problem with =
+      load_problem(problem.urdf(), {}, {"a.yaml", replaced(bare, "i: 0.25}", "i: 0.25}" + keys)});
+  return gains_yaml(with, with.parameters());
+}
+
+TEST(GainsYaml, HasTwoBoundsWhereTheyDiffer) {
+  const std::string text = gains_with(", i_clamp: [-0.5, 2.0], antiwindup: clamping");
+  const YAML::Node gains = YAML::Load(text)["arm_controller"]["gains"]["hinge"];
+  EXPECT_EQ(gains["i_clamp_max"].as<double>(), 2.0);
+  EXPECT_EQ(gains["i_clamp_min"].as<double>(), -0.5);
+  EXPECT_FALSE(gains["i_clamp"]) << "control_toolbox would read it first";
+  EXPECT_TRUE(gains["antiwindup"].as<bool>());
+  EXPECT_EQ(text.find("not in these gains"), std::string::npos) << text;
+}
+
+TEST(GainsYaml, SaysWhatTheToolboxDoesNot) {
+  const std::string text = gains_with(
+      ", i_clamp: 2.0, output_limit: 3.0, antiwindup: back_calculation, filter: {type: low_pass, "
+      "frequency: 20.0}");
+  EXPECT_NE(text.find("hinge; not in these gains, as the study has it: filter, output_limit, "
+                      "antiwindup: back_calculation\n"),
+            std::string::npos)
+      << text;
+  EXPECT_FALSE(YAML::Load(text)["arm_controller"]["gains"]["hinge"]["antiwindup"].as<bool>());
 }
 
 TEST(GainsYaml, NamesStayInTheirComments) {

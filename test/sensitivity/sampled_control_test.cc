@@ -29,6 +29,19 @@ std::string shoulder(const std::string& keys) {
   return "  servo: {" + kShoulder + kGains + ", " + keys + "}\n";
 }
 
+const std::string kRange = "output_limit: [\"${-100*tau}\", \"${200*tau}\"]";
+const std::string kLimit = kRange + ", antiwindup: ";
+const std::string kNotch =
+    "{type: notch, frequency: \"${150*tau}\", damping: \"${10*tau}\", depth: \"${2*tau}\"}";
+
+std::string feedback(const std::string& keys) {
+  return "  servo: {type: state_feedback, output: shoulder, " + keys +
+         "feedback: [{signal: shoulder/position, gain: \"${Kp}\", reference: \"${aim}\", filter: " +
+         kNotch +
+         "}, {signal: shoulder/velocity, gain: \"${Kd}\", filter: {type: low_pass_2, frequency: "
+         "\"${400*tau}\"}}]}\n";
+}
+
 std::vector<ControlCase> control_cases() {
   const std::string cascade =
       "  outer: {type: pid, input: shoulder/position, setpoint: \"${aim}\", gains: {p: "
@@ -62,6 +75,42 @@ std::vector<ControlCase> control_cases() {
       {"pd_gravity",
        "  servo: {type: pd_gravity, output: shoulder, setpoint: \"${aim}\", gains: {p: \"${Kp}\", "
        "d: \"${Kd}\"}, sample_time: 0.01}\n"},
+      {"unsymmetric_limit", shoulder("output_limit: [\"${-100*tau}\", \"${200*tau}\"]")},
+      {"unsymmetric_clamp", shoulder("i_clamp: [\"${-20*tau}\", \"${50*tau}\"]")},
+      {"unsymmetric_antiwindup",
+       shoulder("i_clamp: [\"${-20*tau}\", \"${50*tau}\"], antiwindup: clamping")},
+      {"back_calculation", shoulder(kLimit + "back_calculation")},
+      {"back_calculation_in_time",
+       shoulder(kLimit + "back_calculation, tracking_time: \"${3*tau}\"")},
+      {"conditional", shoulder(kLimit + "conditional")},
+      {"conditional_rate", shoulder(kLimit + "conditional, derivative_filter: \"${tau}\""),
+       "shoulder/effort_rate"},
+      {"sampled_unsymmetric",
+       shoulder("sample_time: 0.01, i_clamp: [0, \"${50*tau}\"], antiwindup: true, " + kRange)},
+      {"sampled_back_calculation", shoulder("sample_time: 0.01, " + kLimit + "back_calculation")},
+      {"sampled_conditional", shoulder("sample_time: 0.01, " + kLimit + "conditional")},
+      {"notch", shoulder("filter: " + kNotch)},
+      {"measured_notch", shoulder("derivative: measurement, filter: " + kNotch)},
+      {"filters",
+       shoulder("derivative_filter: 0.02, filter: [{type: low_pass_2, frequency: "
+                "\"${400*tau}\", damping: 0.6}, {type: lead_lag, zero: 5, pole: "
+                "\"${500*tau}\"}, {type: low_pass, frequency: 20}]"),
+       "shoulder/effort_rate"},
+      {"low_pass_of_a_rate",
+       "  servo: {type: pid, input: shoulder/velocity, setpoint: \"${aim}\", output: shoulder, "
+       "gains: {p: \"${Kd}\", d: \"${Kd/100}\"}, filter: {type: low_pass, frequency: "
+       "\"${400*tau}\"}}\n"},
+      {"sampled_filters",
+       shoulder("sample_time: 0.01, delay: 0.004, filter: [" + kNotch +
+                ", {type: low_pass, frequency: \"${400*tau}\"}], derivative: measurement")},
+      {"filtered_feedback", feedback("")},
+      {"sampled_filtered_feedback", feedback("sample_time: 0.01, ")},
+      {"filtered_pd_gravity",
+       "  servo: {type: pd_gravity, output: shoulder, setpoint: \"${aim}\", gains: {p: \"${Kp}\", "
+       "d: \"${Kd}\"}, filter: " +
+           kNotch + "}\n"},
+      {"filtered_cascade", cascade + ", filter: {type: low_pass, frequency: 30}" + inner +
+                               ", filter: " + kNotch + "}\n"},
       {"cascade", cascade + inner + "}\n"},
       {"cascade_of_two_rates",
        cascade + ", sample_time: 0.02" + inner + ", sample_time: 0.004, delay: 0.001}\n"}};

@@ -82,6 +82,82 @@ TEST(Linearize, AFilteredDerivative) {
 }
 
 // m g l = 9.81: the gain of 20 may fall to 9.81.
+constexpr double kTurn = 6.283185307179586;
+
+// (4 + 2 s) N(s) / s^2 with the notch N, in continuous time.
+TEST(Linearize, ANotchInTheLoop) {
+  const LinearModel model = model_of(
+      carts(1, {""}),
+      controlled(cart_servo("gains: {p: 4, d: 2}, filter: {type: notch, frequency: 3, damping: "
+                            "0.5, depth: 0.1}")));
+  const ControllerLoop& loop = model.loops.at(0);
+  ASSERT_FALSE(loop.frequencies.empty());
+  const double w = 3.0 * kTurn;
+  for (std::size_t k = 0; k < loop.frequencies.size(); ++k) {
+    const std::complex<double> s(0.0, loop.frequencies[k]);
+    const std::complex<double> expected =
+        (4.0 + 2.0 * s) * (s * s + 0.1 * w * s + w * w) / (s * s + w * s + w * w) / (s * s);
+    EXPECT_LT(std::abs(loop.response[k] - expected), 1e-9 * std::abs(expected))
+        << loop.frequencies[k];
+  }
+  EXPECT_EQ(model.system.states.back(), "servo0/feedback_filter[1]");
+}
+
+// The sampled cart has T^2/2 (z + 1)/(z - 1)^2 behind a held output; the filters are those of the
+// bilinear transform.
+TEST(Linearize, SampledFiltersInTheLoop) {
+  constexpr double kTime = 0.02;
+  const LinearModel model = model_of(
+      carts(1, {""}),
+      controlled(cart_servo("gains: {p: 4}, sample_time: 0.02, filter: [{type: lead_lag, zero: "
+                            "0.2, pole: 6}, {type: notch, frequency: 10, damping: 0.5}]")));
+  const ControllerLoop& loop = model.loops.at(0);
+  ASSERT_FALSE(loop.frequencies.empty()) << loop.why_not;
+  const double w = 10.0 * kTurn, scale = w / std::tan(0.5 * w * kTime);
+  for (std::size_t k = 0; k + 1 < loop.frequencies.size(); ++k) {
+    const std::complex<double> z = std::polar(1.0, loop.frequencies[k] * kTime);
+    const std::complex<double> s = 2.0 / kTime * (z - 1.0) / (z + 1.0);
+    const std::complex<double> n = scale * (z - 1.0) / (z + 1.0);
+    const std::complex<double> expected =
+        4.0 * (1.0 + s / (0.2 * kTurn)) / (1.0 + s / (6.0 * kTurn)) * (n * n + w * w) /
+        (n * n + w * n + w * w) * 0.5 * kTime * kTime * (z + 1.0) / ((z - 1.0) * (z - 1.0));
+    EXPECT_LT(std::abs(loop.response[k] - expected), 1e-8 * std::abs(expected) + 1e-12)
+        << loop.frequencies[k];
+  }
+}
+
+// Within its limit a loop with anti-windup is the loop without; at rest a filter passes its input.
+TEST(Linearize, AntiWindupAtRestIsNotSeen) {
+  const std::string gains = "gains: {p: 4, i: 3, d: 2}";
+  const LinearModel plain = model_of(carts(1, {sprung(1.0)}), controlled(cart_servo(gains)));
+  for (const char* method : {"back_calculation", "conditional"}) {
+    const LinearModel model =
+        model_of(carts(1, {sprung(1.0)}),
+                 controlled(cart_servo(gains + ", output_limit: [-1, 9], antiwindup: " + method)));
+    ASSERT_EQ(model.modes.size(), plain.modes.size());
+    for (std::size_t k = 0; k < plain.modes.size(); ++k)
+      EXPECT_LT(std::abs(model.modes[k].pole.value - plain.modes[k].pole.value), 1e-12);
+  }
+}
+
+// A motor by resistance, inductance and constant, as doc/actuators.md says it:
+// L s^3 + R s^2 + k^2 s + k p with the mass 1.
+TEST(Linearize, AMotorByItsVoltage) {
+  const double R = 0.5, L = 0.01, k = 0.2, p = 30.0;
+  const LinearModel model = model_of(
+      carts(1, {""}),
+      controlled("amplifier: {type: pid, input: x0/position, setpoint: 0, gains: {p: 30}, "
+                 "output_limit: 24}, motor: {type: state_feedback, output: x0, feedback: [{signal: "
+                 "amplifier/output, gain: -0.4}, {signal: x0/velocity, gain: 0.08}], "
+                 "time_constant: 0.02}"));
+  ASSERT_EQ(model.modes.size(), 2U);
+  for (const LinearMode& mode : model.modes) {
+    const std::complex<double> s = mode.pole.value;
+    const double size = L * std::pow(std::abs(s), 3);
+    EXPECT_LT(std::abs(((L * s + R) * s + k * k) * s + k * p), 1e-10 * (size + k * p)) << s;
+  }
+}
+
 TEST(Linearize, AnInvertedPendulumUnderPd) {
   const LinearModel model = model_of(
       balanced_arm(2.0, 0.0),

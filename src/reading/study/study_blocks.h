@@ -104,6 +104,18 @@ void read_motion(const YamlValue& study_value, const RobotDescription& robot,
 void read_controllers(const YamlValue& study_value, const RobotDescription& robot,
                       const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
+/// Reads the bounds of a controller's number: one positive number for both sides, or `[lower,
+/// upper]`. @param may_be_zero whether they may be 0. @throws InputError
+ControlBounds read_control_bounds(const YamlValue& value, const ParameterTable& table,
+                                  bool may_be_zero);
+
+/// Reads `filter:`, a map or a list of maps, each with `type` and the numbers of the filter.
+/// @throws InputError
+std::vector<FilterDescription> read_filters(const YamlValue& value, const ParameterTable& table);
+
+/// @throws InputError for a sampled filter whose frequency its sample time does not show.
+void check_filters(const ControllerDescription& controller);
+
 /// The optional keys of a controller of this kind: its `own` keys, then the keys about its program
 /// on a robot.
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own);

@@ -89,12 +89,14 @@ void read_state_feedback(const YamlValue& value, const Context& context,
     value.fail("the controller does nothing",
                "feedback: at least one {signal, gain, reference}; or feedforward");
   for (const YamlValue& item : terms) {
-    item.require_keys({"signal", "gain"}, {"reference"});
+    item.require_keys({"signal", "gain"}, {"reference", "filter"});
     FeedbackTerm term;
     term.signal = read_signal(item.at("signal"), context);
     term.gain = read_quantity(item.at("gain"), context.table);
     if (const auto reference = item.find("reference"))
       term.reference = read_reference(*reference, context.table, context.loader);
+    if (const auto filter = item.find("filter"))
+      term.filters = read_filters(*filter, context.table);
     controller->feedback.push_back(term);
   }
 }
@@ -132,7 +134,10 @@ ControllerDescription read_controller(const std::string& name, const YamlValue& 
   if (const auto output = value.find("output"))
     controller.output = scalar_joint(output->text(), context.robot, *output).name;
   read_law(value, context, &controller);
+  if (const auto filter = value.find("filter"))
+    controller.filters = read_filters(*filter, context.table);
   read_realization(value, context.table, &controller);
+  check_filters(controller);
   return controller;
 }
 

@@ -44,33 +44,109 @@ void require_partner(const YamlValue& controller, const std::string& key, bool h
     value->fail("this key needs " + other, "with " + other);
 }
 
+struct AntiWindupName {
+  const char* name;
+  AntiWindup method;
+};
+constexpr AntiWindupName kAntiWindups[] = {{"clamping", AntiWindup::kClamping},
+                                           {"back_calculation", AntiWindup::kBackCalculation},
+                                           {"conditional", AntiWindup::kConditional}};
+
+/// The name of a method; or true, for clamping, or false.
+AntiWindup read_antiwindup(const YamlValue& value) {
+  const std::string text = value.text();
+  for (const AntiWindupName& one : kAntiWindups)
+    if (text == one.name) return one.method;
+  try {
+    return value.boolean() ? AntiWindup::kClamping : AntiWindup::kNone;
+  } catch (const InputError&) {
+    value.fail("unknown anti-windup",
+               "false, clamping (the same as true), back_calculation, conditional");
+  }
+}
+
+void read_limits(const YamlValue& value, const ParameterTable& table,
+                 ControlRealization* realization) {
+  realization->limit_has_corners = realization->antiwindup == AntiWindup::kBackCalculation ||
+                                   realization->antiwindup == AntiWindup::kConditional;
+  const bool is_sampled = realization->is_sampled();
+  if (const auto clamp = value.find("i_clamp"))
+    realization->i_clamp = read_control_bounds(*clamp, table, is_sampled);
+  if (const auto limit = value.find("output_limit"))
+    realization->output_limit =
+        read_control_bounds(*limit, table, is_sampled || realization->limit_has_corners);
+}
+
+void check_antiwindup(const YamlValue& value, const ControllerDescription& controller) {
+  const ControlRealization& realization = controller.realization;
+  if (realization.limit_has_corners) {
+    require_partner(value, "antiwindup", !controller.i.is_zero(), "a gain i");
+    require_partner(value, "antiwindup", realization.output_limit.has_value(), "output_limit");
+  } else {
+    require_partner(value, "antiwindup", realization.i_clamp.has_value(), "i_clamp");
+  }
+  const bool tracks = realization.antiwindup == AntiWindup::kBackCalculation;
+  require_partner(value, "tracking_time", tracks, "antiwindup: back_calculation");
+  if (tracks && !realization.tracking_time && controller.p.is_zero())
+    value.at("antiwindup")
+        .fail("without a gain p there is no default of tracking_time, which is p / i",
+              "with tracking_time, or a gain p");
+}
+
 }  // namespace
+
+ControlBounds read_control_bounds(const YamlValue& value, const ParameterTable& table,
+                                  bool may_be_zero) {
+  if (!value.is_list()) {
+    const Quantity bound = read_quantity(value, table);
+    if (!(bound.nominal() > 0.0))
+      value.fail("this must be positive at the parameters' start",
+                 "more than 0; or [lower, upper]");
+    return {bound, std::nullopt};
+  }
+  const std::vector<YamlValue> items = value.items();
+  if (items.size() != 2)
+    value.fail("two bounds are needed, found " + std::to_string(items.size()), "[lower, upper]");
+  ControlBounds bounds{read_quantity(items[1], table), read_quantity(items[0], table)};
+  const double lower = bounds.lower->nominal();
+  const auto is_bad = [may_be_zero](double x) { return may_be_zero ? x < 0.0 : !(x > 0.0); };
+  if (is_bad(-lower))
+    items[0].fail("the lower bound must be negative at the parameters' start",
+                  may_be_zero ? "0 or less" : "less than 0; 0, too, where the bound has corners");
+  if (is_bad(bounds.upper.nominal()))
+    items[1].fail("the upper bound must be positive at the parameters' start",
+                  may_be_zero ? "0 or more" : "more than 0; 0, too, where the bound has corners");
+  if (!(lower < bounds.upper.nominal()))
+    value.fail("the bounds leave nothing between them", "[lower, upper] with lower below upper");
+  return bounds;
+}
 
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
   own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
+  if (kind->has_error()) own.emplace_back("filter");
   if (kind->is_pid)
-    own.insert(own.end(),
-               {"i_clamp", "antiwindup", "derivative", "derivative_filter", "quantization"});
+    own.insert(own.end(), {"i_clamp", "antiwindup", "tracking_time", "derivative",
+                           "derivative_filter", "quantization"});
   return own;
 }
 
 void read_realization(const YamlValue& value, const ParameterTable& table,
                       ControllerDescription* controller) {
   ControlRealization& realization = controller->realization;
-  realization.i_clamp = read_positive_quantity(value, "i_clamp", table);
   realization.derivative_filter = read_positive_quantity(value, "derivative_filter", table);
-  realization.output_limit = read_positive_quantity(value, "output_limit", table);
   realization.time_constant = read_positive_quantity(value, "time_constant", table);
   if (const auto antiwindup = value.find("antiwindup"))
-    realization.antiwindup = antiwindup->boolean();
+    realization.antiwindup = read_antiwindup(*antiwindup);
+  realization.tracking_time = read_positive_quantity(value, "tracking_time", table);
   if (const auto derivative = value.find("derivative"))
     realization.rates_input =
         derivative->choice("quantity", {"error", "measurement"}) == "measurement";
   realization.sample_time = read_instant(value, "sample_time", false);
   realization.delay = read_instant(value, "delay", true);
   realization.quantization = read_instant(value, "quantization", true);
+  read_limits(value, table, &realization);
   require_partner(value, "i_clamp", !controller->i.is_zero(), "a gain i");
-  require_partner(value, "antiwindup", realization.i_clamp.has_value(), "i_clamp");
+  check_antiwindup(value, *controller);
   require_partner(value, "derivative", !controller->d.is_zero(), "a gain d");
   require_partner(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
   require_partner(value, "delay", realization.is_sampled(), "sample_time");
@@ -154,12 +230,17 @@ void read_clamp(const ControllerDescription& controller, const YamlValue& value,
         given->fail("the controller of the study has i_clamp already, which the robot gets",
                     "no such key here");
     gains->i_clamp = controller.realization.i_clamp;
-    gains->antiwindup = controller.realization.antiwindup;
+    gains->antiwindup = controller.realization.antiwindup == AntiWindup::kClamping;
     return;
   }
   if (const auto clamp = value.find("i_clamp")) {
-    gains->i_clamp = read_quantity(*clamp, table);
-    if (gains->i_clamp->nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
+    if (clamp->is_list()) {
+      gains->i_clamp = read_control_bounds(*clamp, table, true);
+    } else {
+      const Quantity bound = read_quantity(*clamp, table);
+      if (bound.nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
+      gains->i_clamp = ControlBounds{bound, std::nullopt};
+    }
   }
   if (const auto antiwindup = value.find("antiwindup")) gains->antiwindup = antiwindup->boolean();
 }

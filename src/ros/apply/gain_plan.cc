@@ -49,10 +49,13 @@ class Fitting {
 
   void set_clamp(const RobotGains& gains) {
     if (has("i_clamp_max")) {
-      set("i_clamp_max", {gains.i_clamp, false});
-      if (has("i_clamp_min")) set("i_clamp_min", {-gains.i_clamp, false});
+      set("i_clamp_max", {gains.i_clamp_max, false});
+      if (has("i_clamp_min") || gains.i_clamp_min != -gains.i_clamp_max)
+        set("i_clamp_min", {gains.i_clamp_min, false});
+    } else if (gains.i_clamp_min != -gains.i_clamp_max) {
+      set("i_clamp_max", {gains.i_clamp_max, false});
     } else if (has("i_clamp") || gains.i != 0.0) {
-      set("i_clamp", {gains.i_clamp, false});
+      set("i_clamp", {gains.i_clamp_max, false});
     }
   }
 

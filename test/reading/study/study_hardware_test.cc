@@ -31,10 +31,10 @@ TEST(StudyRealization, ReadsEveryKey) {
                                  "output_limit: 9.0, time_constant: \"${tau/2}\", sample_time: "
                                  "0.001, delay: 0.0025, quantization: 0.1"));
   const ControlRealization& realization = study.controllers.at(0).realization;
-  EXPECT_EQ(realization.i_clamp->nominal(), 4.0);
-  EXPECT_TRUE(realization.antiwindup);
+  EXPECT_EQ(realization.i_clamp->upper.nominal(), 4.0);
+  EXPECT_EQ(realization.antiwindup, AntiWindup::kClamping);
   EXPECT_EQ(realization.derivative_filter->nominal(), 0.02);
-  EXPECT_EQ(realization.output_limit->nominal(), 9.0);
+  EXPECT_EQ(realization.output_limit->upper.nominal(), 9.0);
   EXPECT_EQ(realization.time_constant->nominal(), 0.01);
   EXPECT_EQ(realization.sample_time, 0.001);
   EXPECT_EQ(realization.delay, 0.0025);
@@ -42,10 +42,40 @@ TEST(StudyRealization, ReadsEveryKey) {
   EXPECT_EQ(realization.queued(), 3);
 }
 
+TEST(StudyRealization, ReadsBoundsOfTwoNumbers) {
+  const auto realization = [](const std::string& keys) {
+    return read_text(realization_text(keys)).controllers.at(0).realization;
+  };
+  const ControlRealization both =
+      realization("i_clamp: [\"${-tau}\", 3.0], output_limit: [-2.0, 9.0], antiwindup: clamping");
+  EXPECT_EQ(both.i_clamp->lower->nominal(), -0.02);
+  EXPECT_EQ(both.i_clamp->upper.nominal(), 3.0);
+  EXPECT_EQ(both.output_limit->lower->nominal(), -2.0);
+  EXPECT_EQ(both.antiwindup, AntiWindup::kClamping);
+  EXPECT_FALSE(both.limit_has_corners);
+  // Corners may be at zero.
+  for (const char* keys :
+       {"sample_time: 0.1, output_limit: [0, 5]", "antiwindup: conditional, output_limit: [0, 5]"})
+    EXPECT_EQ(realization(keys).output_limit->lower->nominal(), 0.0);
+}
+
+TEST(StudyRealization, ReadsAntiWindup) {
+  const auto realization = [](const std::string& keys) {
+    return read_text(realization_text("output_limit: 2, " + keys)).controllers.at(0).realization;
+  };
+  const ControlRealization tracking =
+      realization("antiwindup: back_calculation, tracking_time: \"${tau}\"");
+  EXPECT_EQ(tracking.antiwindup, AntiWindup::kBackCalculation);
+  EXPECT_EQ(tracking.tracking_time->nominal(), 0.02);
+  EXPECT_TRUE(tracking.limit_has_corners);
+  EXPECT_EQ(realization("antiwindup: conditional").antiwindup, AntiWindup::kConditional);
+  EXPECT_EQ(realization("antiwindup: yes, i_clamp: 1").antiwindup, AntiWindup::kClamping);
+}
+
 TEST(StudyRealization, IsOffByDefault) {
   const ControlRealization realization =
       read_text(realization_text("antiwindup: false, i_clamp: 1")).controllers.at(0).realization;
-  EXPECT_FALSE(realization.antiwindup);
+  EXPECT_EQ(realization.antiwindup, AntiWindup::kNone);
   EXPECT_FALSE(realization.is_sampled());
   EXPECT_FALSE(realization.derivative_filter || realization.output_limit ||
                realization.time_constant);
@@ -100,7 +130,7 @@ TEST(StudyHardware, ReadsEveryField) {
   EXPECT_EQ(gains.controller, "speed");
   EXPECT_EQ(gains.name_space, "crank/pid");
   ASSERT_TRUE(gains.i_clamp);
-  EXPECT_EQ(gains.i_clamp->nominal(), 3.0);
+  EXPECT_EQ(gains.i_clamp->upper.nominal(), 3.0);
   EXPECT_TRUE(gains.antiwindup);
   EXPECT_EQ(gains.where.line, 7);
 }
@@ -117,7 +147,7 @@ TEST(StudyHardware, TakesTheClampOfTheController) {
       text_of("{speed: {namespace: a}}", "{p: 1, i: 2}, i_clamp: 4, antiwindup: true");
   const HardwareGains gains = read_text(text).hardware.at(0);
   ASSERT_TRUE(gains.i_clamp);
-  EXPECT_EQ(gains.i_clamp->nominal(), 4.0);
+  EXPECT_EQ(gains.i_clamp->upper.nominal(), 4.0);
   EXPECT_TRUE(gains.antiwindup);
   expect_fault(text_of("{speed: {namespace: a, i_clamp: 3}}", "{p: 1, i: 2}, i_clamp: 4"),
                "hardware.speed.i_clamp", "has i_clamp already", 7);

@@ -60,9 +60,26 @@ TEST(GainPlan, AClampMayHaveOneName) {
   state.now["i_clamp"] = {0.0, false};
   EXPECT_EQ(wanted_values(order, state, "/arm/elbow").at("i_clamp").number, 2.0);
   GainOrder without_integral = order;
-  without_integral.gains->i = without_integral.gains->i_clamp = 0.0;
+  without_integral.gains->i = without_integral.gains->i_clamp_min =
+      without_integral.gains->i_clamp_max = 0.0;
   state.now.erase("i_clamp");
   EXPECT_EQ(fault_of(without_integral, state), "");
+}
+
+TEST(GainPlan, TwoBoundsNeedTwoNames) {
+  GainServerState state = toolbox();
+  GainOrder order = orders_of(planned_job(), "")[0];
+  order.gains->i_clamp_min = -0.5;
+  const GainValues wanted = wanted_values(order, state, "/arm/elbow");
+  EXPECT_EQ(wanted.at("i_clamp_min").number, -0.5);
+  EXPECT_EQ(wanted.at("i_clamp_max").number, 2.0);
+  state.now.erase("i_clamp_min");
+  EXPECT_NE(fault_of(order, state).find("i_clamp_min: the server has no such parameter"),
+            std::string::npos);
+  state.now.erase("i_clamp_max");
+  state.now["i_clamp"] = {0.0, false};
+  EXPECT_NE(fault_of(order, state).find("i_clamp_max: the server has no such parameter"),
+            std::string::npos);
 }
 
 TEST(GainPlan, WhatAServerDoesNotTakeIsRefused) {
