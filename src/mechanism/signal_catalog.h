@@ -16,6 +16,9 @@ namespace codesign {
 bool is_of_mechanism(const SignalTerm& term);
 /// Whether a term is a quantity of a spring-damper: no other object has one of these.
 bool is_of_spring(const SignalTerm& term);
+/// Whether a term is a quantity of a contact. No joint, link, loop or spring-damper has the name of
+/// a contact.
+bool is_of_contact(const SignalTerm& term, const RobotDescription& robot);
 /// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint
 /// from a link of the same name.
 bool is_reaction(const SignalTerm& term);

@@ -1,0 +1,129 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "forces/law.h"
+#include "math/scalar.h"
+
+namespace codesign {
+
+/// The numbers of the normal force of two bodies that touch; theory (13l).
+template <class T>
+struct ContactNumbers {
+  T stiffness{0.0};    ///< k [N/m^n]
+  T exponent{1.0};     ///< n [-]
+  T loss{0.0};         ///< lambda [s/m], or c [N s/m] of `linear`; ContactLaw::loss_attribute
+  double onset = 0.0;  ///< w [m], far below every penetration that counts
+};
+
+/// delta^2 (delta + w)^(n - 2) [m^n], delta^n but for w; zero for delta <= 0. Its second derivative
+/// is finite where the bodies begin to touch, so that the derivatives of a step are, too.
+/// @param depth delta [m]. @param exponent n >= 1. @param onset w > 0 [m].
+template <class T>
+T contact_power(const T& depth, const T& exponent, double onset) {
+  using std::exp;
+  using std::log;
+  if (!is_less(T(0.0), depth, true)) return T(0.0);
+  return depth * depth * exp((exponent - T(2.0)) * log(T(depth + T(onset))));
+}
+
+/// The integral of contact_power() by delta from 0 [m^(n+1)], but for terms of the order w^2.
+template <class T>
+T contact_power_integral(const T& depth, const T& exponent, double onset) {
+  using std::exp;
+  using std::log;
+  if (!is_less(T(0.0), depth, true)) return T(0.0);
+  const T u = depth + T(onset), power = exp(exponent * log(u));
+  return power * (u / (exponent + T(1.0)) - T(2.0 * onset) / exponent);
+}
+
+/// What the force depends on at one instant.
+template <class T>
+struct ContactValues {
+  T depth{0.0};    ///< delta, the penetration [m]
+  T rate{0.0};     ///< delta' [m/s], positive while the bodies approach
+  T elastic{0.0};  ///< k delta^n [N]
+  T loss{0.0};     ///< ContactNumbers::loss
+};
+/// A factor or a force whose sign is that of the normal force: where it falls to zero, the bodies
+/// part although they overlap.
+template <class T>
+using ContactGrowth = T (*)(const ContactValues<T>& x);
+/// lambda v_0 [-] for which a body that arrives at v_0 leaves at e v_0, as the law's authors have
+/// it. @param e restitution, 0 < e <= 1.
+template <class T>
+using ContactLoss = T (*)(const T& e);
+
+/// A law of the normal force, one row of the table in contact_law.cc; theory (13l). With
+/// is_factor, F = k delta^n growth, else F = growth.
+struct ContactLaw {
+  const char* name = "";   ///< the value of `<codesign:contact model>`
+  const char* title = "";  ///< its name in sentences
+  const char* loss_attribute = "dissipation";
+  Law<ContactGrowth> growth{};
+  bool is_factor = true;           ///< else the force may jump where the bodies touch
+  Law<ContactLoss> restitution{};  ///< none: a restitution says nothing about the loss
+  double exponent = 1.5;           ///< n where the model gives none
+  bool has_exponent = true;        ///< whether a model may give it
+};
+
+/// The law of a contact.
+class ContactModel : public RowReference<ContactLaw> {
+ public:
+  using RowReference::RowReference;
+  static const ContactModel kHuntCrossley;
+};
+
+/// The library's laws of contact.
+std::vector<ContactModel> contact_laws();
+
+/// The decisions of a contact, as parts for name_part(): twice the index of its point, and whether
+/// bodies that overlap part.
+constexpr int kContactTouch = 0, kContactParting = 1, kContactParts = 2;
+
+/// The normal force of one point of a contact.
+template <class T>
+struct ContactForce {
+  bool touches = false;  ///< else all members are zero
+  T normal{0.0};         ///< N >= 0 [N]
+  T elastic{0.0};        ///< its part k delta^n [N]
+};
+
+/// N at a gap, theory (13l); never negative. Touch and parting are switches.
+/// @param gap [m], negative by the penetration. @param gap_rate [m/s].
+/// @param has_loss whether the contact has a loss at all; without one it cannot part while it
+/// overlaps. @param part of the point, for name_part().
+template <class T>
+ContactForce<T> contact_force(const ContactLaw& law, bool has_loss, const T& gap, const T& gap_rate,
+                              const ContactNumbers<T>& c, int part) {
+  ContactForce<T> force;
+  name_part(gap, part + kContactTouch);
+  const bool jumps = has_loss && !law.is_factor;
+  force.touches = jumps ? is_below(gap, T(0.0), false) : is_below_kink(gap, T(0.0), false);
+  if (!force.touches) return force;
+  const T depth = -gap;
+  force.elastic =
+      c.stiffness * (law.has_exponent ? contact_power(depth, c.exponent, c.onset) : depth);
+  force.normal = force.elastic;
+  if (!has_loss) return force;
+  const T growth = law.growth.of<T>(ContactValues<T>{depth, T(-gap_rate), force.elastic, c.loss});
+  name_part(gap, part + kContactParting);
+  if (!is_below_kink(T(0.0), growth, true)) {
+    force.normal = T(0.0);
+    return force;
+  }
+  force.normal = law.is_factor ? T(force.elastic * growth) : growth;
+  return force;
+}
+
+/// The elastic energy of one point [J]. @param gap [m].
+template <class T>
+T contact_energy(const ContactLaw& law, const T& gap, const ContactNumbers<T>& c) {
+  if (!is_less(gap, T(0.0), false)) return T(0.0);
+  if (!law.has_exponent) return T(0.5) * c.stiffness * gap * gap;
+  return c.stiffness * contact_power_integral(T(-gap), c.exponent, c.onset);
+}
+
+}  // namespace codesign
