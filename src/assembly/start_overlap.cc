@@ -5,21 +5,16 @@
 
 #include "elements/body_contact.h"
 #include "equations/compiled_system.h"
+#include "equations/equations.h"
 #include "equations/formulas.h"
 #include "text/number_text.h"
 
 namespace codesign {
-namespace {
 
-constexpr double kTolerated = 0.05;  // of the smaller shape
-
-/// The smaller extent of both shapes [m].
 double smaller_extent(const ContactDescription& contact, const ContactConstants<double>& c) {
   return std::min(extent_of(*contact.surface.shape, c.surface.shape),
                   extent_of(*contact.points.shape, c.points.shape));
 }
-
-}  // namespace
 
 Warnings find_overlaps(const CompiledSystem& system, const State<double>& state,
                        Equations<double>* equations) {
@@ -31,7 +26,7 @@ Warnings find_overlaps(const CompiledSystem& system, const State<double>& state,
     const ContactDescription& contact = system.robot().contacts[k];
     const double extent = smaller_extent(contact, view.design.constants.contacts[k]),
                  overlap = -nearest_point(view, static_cast<int>(k)).gap;
-    if (!(overlap > kTolerated * extent)) continue;
+    if (!(overlap > kDeepOverlap * extent)) continue;
     const std::string value = readable(overlap, 4) + " m";
     if (overlap > extent)
       throw InputError({contact.where, contact.element(),
@@ -44,7 +39,7 @@ Warnings find_overlaps(const CompiledSystem& system, const State<double>& state,
                   "holds " +
                       readable(body_contact_energy(view, k), 4) +
                       " J and throws them apart; begin with a gap, or nearer to rest",
-                  value, "at most " + readable(kTolerated * extent, 4) + " m"})},
+                  value, "at most " + readable(kDeepOverlap * extent, 4) + " m"})},
            &warnings);
   }
   return warnings;

@@ -7,8 +7,17 @@
 namespace codesign {
 
 class CompiledSystem;
+struct ContactDescription;
+template <class T>
+struct ContactConstants;
 template <class T>
 class Equations;
+
+/// The part of the smaller shape by which shapes may overlap without a word.
+constexpr double kDeepOverlap = 0.05;
+
+/// The smaller extent of both shapes [m].
+double smaller_extent(const ContactDescription& contact, const ContactConstants<double>& c);
 
 /// A warning `start_overlaps` for each contact whose shapes overlap at the start by more than 5 %
 /// of the smaller one: the contact then holds energy, (13l), which throws them apart. Of a study of
