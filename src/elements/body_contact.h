@@ -155,7 +155,13 @@ TouchPoint<T> nearest_point(const StateView<T>& view, int contact) {
   TouchPoint<T> nearest = touch_point(view, k, 0);
   for (int index = 1; index < contact_of(view, k).points.shape->points; ++index) {
     const TouchPoint<T> point = touch_point(view, k, index);
-    if (is_less(point.gap, nearest.gap, false)) nearest = point;
+    if (takes_all_branches(point.gap)) {
+      nearest.gap += point.gap;
+      nearest.gap_rate += point.gap_rate;
+      nearest.slip += point.slip;
+    } else if (is_less(point.gap, nearest.gap, false)) {
+      nearest = point;
+    }
   }
   return nearest;
 }

@@ -18,15 +18,17 @@ struct ContactNumbers {
   double onset = 0.0;  ///< w [m], far below every penetration that counts
 };
 
-/// delta^2 (delta + w)^(n - 2) [m^n], delta^n but for w; zero for delta <= 0. Its second derivative
-/// is finite where the bodies begin to touch, so that the derivatives of a step are, too.
+/// delta |delta| (|delta| + w)^(n - 2) [m^n], for delta > 0 delta^n but for w. Its second
+/// derivative is finite where the bodies begin to touch, so that the derivatives of a step are,
+/// too. A step that begins while they touch sees a pull beyond: else one that is long enough to
+/// have all its stages behind a thin body would fall through it.
 /// @param depth delta [m]. @param exponent n >= 1. @param onset w > 0 [m].
 template <class T>
 T contact_power(const T& depth, const T& exponent, double onset) {
   using std::exp;
   using std::log;
-  if (!is_less(T(0.0), depth, true)) return T(0.0);
-  return depth * depth * exp((exponent - T(2.0)) * log(T(depth + T(onset))));
+  const T size = is_less(depth, T(0.0), false) ? T(-depth) : depth;
+  return depth * size * exp((exponent - T(2.0)) * log(T(size + T(onset))));
 }
 
 /// The integral of contact_power() by delta from 0 [m^(n+1)], but for terms of the order w^2.

@@ -2,6 +2,7 @@
 #include "forces/contact_shape.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -59,8 +60,21 @@ SurfaceDistance<T> from_bore(const Vector3<T>& at, const ShapeNumbers<T>& c) {
   return turned_inside_out(from_centre(Vector3<T>(at[0], at[1], T(0.0)), c.radius));
 }
 
+/// Whether a recording looks for all that its branches can depend on.
+template <class T>
+bool shows_all_branches(const Vector3<T>& at) {
+  return takes_all_branches(at[0]) || takes_all_branches(at[1]) || takes_all_branches(at[2]);
+}
+/// Then what depends on the whole point stands for all of them.
+template <class T>
+SurfaceDistance<T> from_all_branches(const Vector3<T>& at) {
+  const T sum = at[0] + at[1] + at[2];
+  return {sum, Vector3<T>(sum, sum, sum)};
+}
+
 template <class T>
 SurfaceDistance<T> from_capsule(const Vector3<T>& at, const ShapeNumbers<T>& c) {
+  if (shows_all_branches(at)) return from_all_branches(at);
   const T half = T(0.5) * c.length;
   T along = at[2];
   if (is_less(half, along, false)) along = half;
@@ -102,6 +116,7 @@ T sign_of(const T& x) {
 
 template <class T>
 SurfaceDistance<T> from_box(const Vector3<T>& at, const ShapeNumbers<T>& c) {
+  if (shows_all_branches(at)) return from_all_branches(at);
   std::array<T, 3> beyond;
   std::array<Vector3<T>, 3> outward;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -116,6 +131,7 @@ SurfaceDistance<T> from_box(const Vector3<T>& at, const ShapeNumbers<T>& c) {
 
 template <class T>
 SurfaceDistance<T> from_cylinder(const Vector3<T>& at, const ShapeNumbers<T>& c) {
+  if (shows_all_branches(at)) return from_all_branches(at);
   const SurfaceDistance<T> side = from_centre(Vector3<T>(at[0], at[1], T(0.0)), c.radius);
   const T sign = sign_of(at[2]);
   const std::array<T, 2> beyond{T(sign * at[2] - T(0.5) * c.length), side.distance};

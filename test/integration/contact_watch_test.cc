@@ -11,12 +11,13 @@ namespace codesign {
 namespace {
 
 Warnings of_fall(double speed) {
-  const Problem problem = load_problem(
-      {"ball.urdf", free_ball("", touching_ground("shape='plane'", ""))}, {},
-      {"ball.yaml",
-       "duration: 0.2\ninitial_state: {free: {translation: [0, 0, 0.1], linear_velocity: [0, 0, " +
-           std::to_string(-speed) + "]}}\n"},
-      {}, TrajectoryLoader(), FileLoader());
+  const Problem problem =
+      load_problem({"ball.urdf", free_ball("", touching_ground("shape='plane'", ""))}, {},
+                   {"ball.yaml",
+                    "duration: 0.2\ninitial_state: {free: {translation: [0, 0, 0.055], "
+                    "linear_velocity: [0, 0, " +
+                        std::to_string(-speed) + "]}}\n"},
+                   {}, TrajectoryLoader(), FileLoader());
   Simulation simulation(problem, problem.parameters());
   EXPECT_TRUE(simulation.start().ok());
   EXPECT_TRUE(simulation.warnings().empty());
@@ -27,7 +28,7 @@ Warnings of_fall(double speed) {
 // Without loss and gravity 2/5 k delta^(5/2) = m v^2/2: 2.5 mm, a twentieth of the radius, at 0.5
 // m/s.
 TEST(ContactWatch, FindsTheDeepestPenetrationBetweenTheSamples) {
-  const double depth = std::pow(1.25e-6 * (25.0 + 2.0 * 9.81 * 0.05), 0.4);
+  const double depth = std::pow(1.25e-6 * (25.0 + 2.0 * 9.81 * 0.005), 0.4);
   EXPECT_TRUE(of_fall(0.01).empty());
   const Warnings warnings = of_fall(5.0);
   ASSERT_EQ(warnings.size(), 1U);
