@@ -144,6 +144,34 @@ TEST(Contact, OfSeveralPointsTakesExactlyItsWork) {
   }
 }
 
+// A journal of 10 mm in a bearing that is wider by the clearance, in place of a hinge.
+TEST(Contact, AHingeWithClearanceIsNearlyAHinge) {
+  const double duration = 0.7;
+  const std::string link = bar("arm"), start = "duration: 0.7\ninitial_state: {j: {";
+  const std::vector<double> ideal =
+      at_end(problem_of(robot(link + hinge("j", "ground", "arm", "0 0 0")),
+                        start + "position: 0.5}}\nsolver: {relative_tolerance: 1.0e-9}\n"),
+             duration, {"arm/velocity/x", "arm/angular_velocity/y"});
+  double last = 0.0;
+  for (const double clearance : {1e-3, 1e-5}) {
+    const Problem problem = problem_of(
+        robot(link +
+              "<joint name='j' type='planar'><parent link='ground'/><child link='arm'/><axis "
+              "xyz='0 1 0'/></joint><codesign:contact name='bearing' stiffness='1e8' "
+              "dissipation='2'><predecessor link='ground' shape='bore' radius='" +
+              std::to_string(0.01 + clearance) +
+              "'><origin rpy='1.5707963267948966 0 0'/></predecessor><successor link='arm' "
+              "shape='sphere' radius='0.01'/></codesign:contact>"),
+        start + "rotation: 0.5}}\nsolver: {relative_tolerance: 1.0e-8}\n");
+    const std::vector<double> end = at_end(
+        problem, duration, {"arm/velocity/x", "arm/angular_velocity/y", "bearing/normal_force"});
+    last = std::abs(end[1] - ideal[1]);
+    EXPECT_LT(last, 60.0 * clearance + 1e-3) << clearance;
+    EXPECT_GT(end[2], 1.0) << "it hangs in its bearing";
+  }
+  EXPECT_LT(last, 2e-3);
+}
+
 // Both bodies move; a box has the surface, and a sphere beside the centre of mass touches it.
 TEST(Contact, ActsOnBothBodiesAndKeepsTheirMomentum) {
   const std::string urdf = robot(
