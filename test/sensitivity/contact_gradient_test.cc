@@ -135,6 +135,26 @@ TEST(ContactGradient, AgreesWithTheComplexStepThroughTheSameSteps) {
   EXPECT_LT(check.largest_relative_difference, 1e-8);
 }
 
+// The run ends at the touch: T = sqrt(2 (h - r)/g), psi = T^2.
+TEST(ContactGradient, OfTheTimeOfFlightIsThatOfTheClosedForm) {
+  const Problem problem = problem_of(
+      {"flight",
+       free_ball("", touching_ground("shape='plane'", kLossy)),
+       "duration: 1.0\nuntil: \"${touch/gap < 0}\"\ninitial_state: {free: {translation: [0, 0, "
+       "\"${height}\"]}}\nparameters: {height: {initial: 0.4}, radius: {}}\nobjective: {terminal: "
+       "[{signal: end_time}]}\n",
+       0.0,
+       {},
+       0},
+      "");
+  Evaluator evaluator(problem);
+  const Evaluation run = evaluator.evaluate(problem.start(), true);
+  ASSERT_TRUE(run.status.ok()) << run.status.cause;
+  EXPECT_NEAR(run.objective, 2.0 * 0.35 / kGravity, 1e-10);
+  EXPECT_NEAR(run.gradient[0], 2.0 / kGravity, 1e-8);
+  EXPECT_NEAR(run.gradient[1], -2.0 / kGravity, 1e-8);
+}
+
 // z(t) of the flight after one bounce without loss is that of a ball which falls from the same
 // height: the touch at t1 = sqrt(2 (h - r)/g), and in the limit of a stiff contact z = r + v1 (t -
 // t1) - g (t - t1)^2/2 with v1 = g t1.
