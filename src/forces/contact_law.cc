@@ -13,7 +13,7 @@ namespace {
 /// vibroimpact, J. Appl. Mech. 42 (1975) 440-445.
 template <class T>
 T hysteresis(const ContactValues<T>& x) {
-  return T(1.0) + x.loss * x.rate;
+  return 1.0 + x.loss * x.rate;
 }
 
 /// k delta + c delta'.
@@ -25,21 +25,21 @@ T linear(const ContactValues<T>& x) {
 /// Hunt and Crossley (1975), for e near 1.
 template <class T>
 T hunt_crossley_loss(const T& e) {
-  return T(1.5) * (T(1.0) - e);
+  return 1.5 * (1.0 - e);
 }
 
 /// Lankarani and Nikravesh, A contact force model with hysteresis damping for impact analysis of
 /// multibody systems, J. Mech. Des. 112 (1990) 369-376: for e near 1.
 template <class T>
 T lankarani_nikravesh_loss(const T& e) {
-  return T(0.75) * (T(1.0) - e * e);
+  return 0.75 * (1.0 - e * e);
 }
 
 /// Flores, Machado, Silva and Martins, On the continuous contact force models for soft materials in
 /// multibody dynamics, Multibody Syst. Dyn. 25 (2011) 357-375: for all e > 0.
 template <class T>
 T flores_loss(const T& e) {
-  return T(8.0) * (T(1.0) - e) / (T(5.0) * e);
+  return 8.0 * (1.0 - e) / (5.0 * e);
 }
 
 /// lambda v_0 of gonthier_loss() for e near 1: of the powers of d in ln(1 + d) - ln(1 - e d) = d (1
@@ -47,18 +47,15 @@ T flores_loss(const T& e) {
 template <class T>
 T gonthier_loss_near_one(const T& e) {
   constexpr int kSteps = 8, kPowers = 8;
-  T d = T(1.5) * (T(1.0) - e);
+  T d = 1.5 * (1.0 - e);
   for (int step = 0; step < kSteps; ++step) {
     T f(0.0), slope(0.0), power(1.0), of_e = e * e;
-    for (int k = 2; k <= kPowers; ++k) {
-      const T c = (of_e - T(k % 2 == 0 ? 1.0 : -1.0)) / T(static_cast<double>(k));
-      f += c * power;
-      if (k < kPowers) {
-        const T next = (of_e * e - T(k % 2 == 0 ? -1.0 : 1.0)) / T(k + 1.0);
-        slope += T(k - 1.0) * next * power;
-      }
-      power *= d;
+    double sign = 1.0;
+    for (int k = 2; k <= kPowers; ++k, sign = -sign) {
+      f += (of_e - sign) / k * power;
       of_e *= e;
+      if (k < kPowers) slope += (of_e + sign) * (k - 1.0) / (k + 1.0) * power;
+      power *= d;
     }
     d -= f / slope;
   }
@@ -72,12 +69,12 @@ template <class T>
 T gonthier_loss(const T& e) {
   using std::exp;
   constexpr int kSteps = 30;
-  constexpr double kNearOne = 0.99;  // above it the root at d = 0 is too near
-  if (is_less(T(kNearOne), e, false)) return gonthier_loss_near_one(e);
-  T d = T(1.0) / e;
+  const T near_one(0.99);  // above it the root at d = 0 is too near
+  if (is_less(near_one, e, false)) return gonthier_loss_near_one(e);
+  T d = 1.0 / e;
   for (int k = 0; k < kSteps; ++k) {
-    const T grown = exp(d * (T(1.0) + e)), rest = T(1.0) - e * d;
-    d -= (rest * grown - (T(1.0) + d)) / (grown * (rest * (T(1.0) + e) - e) - T(1.0));
+    const T grown = exp(d * (1.0 + e)), rest = 1.0 - e * d;
+    d -= (rest * grown - (1.0 + d)) / (grown * (rest * (1.0 + e) - e) - 1.0);
   }
   return d;
 }

@@ -65,10 +65,10 @@ struct ContactLaw {
   const char* title = "";  ///< its name in sentences
   const char* loss_attribute = "dissipation";
   Law<ContactGrowth> growth{};
-  bool is_factor = true;           ///< else the force may jump where the bodies touch
   Law<ContactLoss> restitution{};  ///< none: a restitution says nothing about the loss
   double exponent = 1.5;           ///< n where the model gives none
   bool has_exponent = true;        ///< whether a model may give it
+  bool is_factor = true;           ///< else the force may jump where the bodies touch
 };
 
 /// The law of a contact.

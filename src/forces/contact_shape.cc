@@ -23,26 +23,26 @@ constexpr double kLying = 1e-6;
 template <class T>
 T softened_length(const T& x, const T& y, const T& z) {
   using std::sqrt;
-  return sqrt(x * x + y * y + z * z + T(kTiny * kTiny));
+  return sqrt(x * x + y * y + z * z + kTiny * kTiny);
 }
 
 // Surfaces.
 
 template <class T>
 SurfaceDistance<T> from_plane(const Vector3<T>& at, const ShapeNumbers<T>&) {
-  return {at[2], Vector3<T>(T(0.0), T(0.0), T(1.0))};
+  return {at[2], Vector3<T>(0.0, 0.0, 1.0)};
 }
 
 /// The distance from a ball about the origin: of v, a part of `at`.
 template <class T>
 SurfaceDistance<T> from_centre(const Vector3<T>& v, const T& radius) {
   const T length = softened_length(v[0], v[1], v[2]);
-  return {length - radius, Vector3<T>((T(1.0) / length) * v)};
+  return {length - radius, (1.0 / length) * v};
 }
 
 template <class T>
 SurfaceDistance<T> turned_inside_out(const SurfaceDistance<T>& of) {
-  return {T(-of.distance), Vector3<T>(-of.normal)};
+  return {-of.distance, -of.normal};
 }
 
 template <class T>
@@ -57,7 +57,7 @@ SurfaceDistance<T> from_socket(const Vector3<T>& at, const ShapeNumbers<T>& c) {
 
 template <class T>
 SurfaceDistance<T> from_bore(const Vector3<T>& at, const ShapeNumbers<T>& c) {
-  return turned_inside_out(from_centre(Vector3<T>(at[0], at[1], T(0.0)), c.radius));
+  return turned_inside_out(from_centre(Vector3<T>(at[0], at[1], 0.0), c.radius));
 }
 
 /// Whether a recording looks for all that its branches can depend on.
@@ -75,11 +75,12 @@ SurfaceDistance<T> from_all_branches(const Vector3<T>& at) {
 template <class T>
 SurfaceDistance<T> from_capsule(const Vector3<T>& at, const ShapeNumbers<T>& c) {
   if (shows_all_branches(at)) return from_all_branches(at);
-  const T half = T(0.5) * c.length;
+  const T half = 0.5 * c.length;
+  const T low = -half;
   T along = at[2];
   if (is_less(half, along, false)) along = half;
-  if (is_less(along, T(-half), false)) along = -half;
-  return from_centre(Vector3<T>(at[0], at[1], T(at[2] - along)), c.radius);
+  if (is_less(along, low, false)) along = low;
+  return from_centre(Vector3<T>(at[0], at[1], at[2] - along), c.radius);
 }
 
 /// The distance from what lies within `beyond` <= 0 in each direction. @param outward the direction
@@ -89,11 +90,12 @@ SurfaceDistance<T> from_edges(const std::array<T, N>& beyond,
                               const std::array<Vector3<T>, N>& outward) {
   using std::sqrt;
   Vector3<T> out = Vector3<T>::Zero();
+  const T zero(0.0);
   T square(0.0);
   int outside = 0;
   std::size_t last = 0;
   for (std::size_t k = 0; k < N; ++k) {
-    if (!is_less(T(0.0), beyond[k], k + 1 == N)) continue;
+    if (!is_less(zero, beyond[k], k + 1 == N)) continue;
     out += beyond[k] * outward[k];
     square += beyond[k] * beyond[k];
     ++outside;
@@ -102,7 +104,7 @@ SurfaceDistance<T> from_edges(const std::array<T, N>& beyond,
   if (outside == 1) return {beyond[last], outward[last]};
   if (outside > 1) {
     const T distance = sqrt(square);
-    return {distance, Vector3<T>((T(1.0) / distance) * out)};
+    return {distance, (1.0 / distance) * out};
   }
   for (std::size_t k = 0; k + 1 < N; ++k)
     if (is_less(beyond[last], beyond[k + 1], true)) last = k + 1;
@@ -111,7 +113,8 @@ SurfaceDistance<T> from_edges(const std::array<T, N>& beyond,
 
 template <class T>
 T sign_of(const T& x) {
-  return is_less(x, T(0.0), false) ? T(-1.0) : T(1.0);
+  const T zero(0.0), one(1.0);
+  return is_less(x, zero, false) ? -one : one;
 }
 
 template <class T>
@@ -122,7 +125,7 @@ SurfaceDistance<T> from_box(const Vector3<T>& at, const ShapeNumbers<T>& c) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = to_signed(k);
     const T sign = sign_of(at[axis]);
-    beyond[k] = sign * at[axis] - T(0.5) * c.size[axis];
+    beyond[k] = sign * at[axis] - 0.5 * c.size[axis];
     outward[k].setZero();
     outward[k][axis] = sign;
   }
@@ -132,10 +135,10 @@ SurfaceDistance<T> from_box(const Vector3<T>& at, const ShapeNumbers<T>& c) {
 template <class T>
 SurfaceDistance<T> from_cylinder(const Vector3<T>& at, const ShapeNumbers<T>& c) {
   if (shows_all_branches(at)) return from_all_branches(at);
-  const SurfaceDistance<T> side = from_centre(Vector3<T>(at[0], at[1], T(0.0)), c.radius);
+  const SurfaceDistance<T> side = from_centre(Vector3<T>(at[0], at[1], 0.0), c.radius);
   const T sign = sign_of(at[2]);
-  const std::array<T, 2> beyond{T(sign * at[2] - T(0.5) * c.length), side.distance};
-  return from_edges(beyond, {Vector3<T>(T(0.0), T(0.0), sign), side.normal});
+  const std::array<T, 2> beyond{sign * at[2] - 0.5 * c.length, side.distance};
+  return from_edges<T, 2>(beyond, {Vector3<T>(0.0, 0.0, sign), side.normal});
 }
 
 // Points.
@@ -147,12 +150,12 @@ Vector3<T> centre(int, const Vector3<T>&, const ShapeNumbers<T>&) {
 
 template <class T>
 Vector3<T> end_of_capsule(int k, const Vector3<T>&, const ShapeNumbers<T>& c) {
-  return Vector3<T>(T(0.0), T(0.0), T(k == 0 ? -0.5 : 0.5) * c.length);
+  return Vector3<T>(0.0, 0.0, (k == 0 ? -0.5 : 0.5) * c.length);
 }
 
 template <class T>
 Vector3<T> corner(int k, const Vector3<T>&, const ShapeNumbers<T>& c) {
-  const auto side = [k](int axis) { return T(((k >> axis) & 1) != 0 ? 0.5 : -0.5); };
+  const auto side = [k](int axis) { return (k & (1 << axis)) != 0 ? 0.5 : -0.5; };
   return Vector3<T>(side(0) * c.size[0], side(1) * c.size[1], side(2) * c.size[2]);
 }
 
@@ -161,25 +164,25 @@ template <class T>
 Vector3<T> rim(int, const Vector3<T>& towards, const ShapeNumbers<T>& c) {
   using std::sqrt;
   const T across = towards[0] * towards[0] + towards[1] * towards[1],
-          scale = c.radius / sqrt(across + T(kLying * kLying));
-  return Vector3<T>(scale * towards[0], scale * towards[1], T(0.0));
+          scale = c.radius / sqrt(across + kLying * kLying);
+  return Vector3<T>(scale * towards[0], scale * towards[1], 0.0);
 }
 
 // Curvatures.
 
 template <class T>
 T no_curvature(const ShapeNumbers<T>&) {
-  return T(0.0);
+  return 0.0;
 }
 
 template <class T>
 T round_curvature(const ShapeNumbers<T>& c) {
-  return T(1.0) / c.radius;
+  return 1.0 / c.radius;
 }
 
 template <class T>
 T hollow_curvature(const ShapeNumbers<T>& c) {
-  return T(-1.0) / c.radius;
+  return -1.0 / c.radius;
 }
 
 constexpr ContactShape make_row(const char* name, Law<SurfaceFunction> surface) {
