@@ -27,8 +27,8 @@ template <class T>
 T contact_power(const T& depth, const T& exponent, double onset) {
   using std::exp;
   using std::log;
-  const T size = is_less(depth, T(0.0), false) ? T(-depth) : depth;
-  return depth * size * exp((exponent - T(2.0)) * log(T(size + T(onset))));
+  const T zero(0.0), size = is_less(depth, zero, false) ? -depth : depth;
+  return depth * size * exp((exponent - 2.0) * log(size + onset));
 }
 
 /// The integral of contact_power() by delta from 0 [m^(n+1)], but for terms of the order w^2.
@@ -36,9 +36,10 @@ template <class T>
 T contact_power_integral(const T& depth, const T& exponent, double onset) {
   using std::exp;
   using std::log;
-  if (!is_less(T(0.0), depth, true)) return T(0.0);
-  const T u = depth + T(onset), power = exp(exponent * log(u));
-  return power * (u / (exponent + T(1.0)) - T(2.0 * onset) / exponent);
+  const T zero(0.0);
+  if (!is_less(zero, depth, true)) return zero;
+  const T u = depth + onset, power = exp(exponent * log(u));
+  return power * (u / (exponent + 1.0) - 2.0 * onset / exponent);
 }
 
 /// What the force depends on at one instant.
@@ -123,9 +124,10 @@ ContactForce<T> contact_force(const ContactLaw& law, bool has_loss, const T& gap
 /// The elastic energy of one point [J]. @param gap [m].
 template <class T>
 T contact_energy(const ContactLaw& law, const T& gap, const ContactNumbers<T>& c) {
-  if (!is_less(gap, T(0.0), false)) return T(0.0);
-  if (!law.has_exponent) return T(0.5) * c.stiffness * gap * gap;
-  return c.stiffness * contact_power_integral(T(-gap), c.exponent, c.onset);
+  const T zero(0.0), depth = -gap;
+  if (!is_less(gap, zero, false)) return zero;
+  if (!law.has_exponent) return 0.5 * c.stiffness * depth * depth;
+  return c.stiffness * contact_power_integral(depth, c.exponent, c.onset);
 }
 
 }  // namespace codesign

@@ -38,16 +38,16 @@ using CurvatureFunction = T (*)(const ShapeNumbers<T>& c);
 /// or both.
 struct ContactShape {
   const char* name = "";  ///< the value of `shape`
-  bool has_radius = false, has_length = false, has_size = false;
-  int points = 0;      ///< how many; 0: it touches with its surface only
-  bool ball = false;   ///< its points are centres of balls of its radius, else corners
-  bool turns = false;  ///< its points depend on the direction, so that the surface must be a plane
   Law<TouchingPoint> point{};
   Law<SurfaceFunction> surface{};
+  Law<CurvatureFunction> curvature{};
+  int points = 0;  ///< how many; 0: it touches with its surface only
+  bool has_radius = false, has_length = false, has_size = false;
+  bool ball = false;   ///< its points are centres of balls of its radius, else corners
+  bool turns = false;  ///< its points depend on the direction, so that the surface must be a plane
   /// flat or hollow, so that a body between points that do not touch does not either
   bool holds_points = false;
   bool flat = false;  ///< its normal is the same everywhere
-  Law<CurvatureFunction> curvature{};
 
   /// Whether points of another shape may touch its surface.
   bool takes(const ContactShape& other) const {

@@ -30,8 +30,7 @@ double nominal_extent(const ContactEnd& end) {
 template <class T>
 ContactSide<T> contact_side(const RobotDescription& robot, const Topology& topology,
                             const ContactDescription& contact, const ContactEnd& end,
-                            const std::vector<LinkConstants<T>>& links,
-                            const std::vector<T>& parameters) {
+                            const LinkFrames<T>& links, const std::vector<T>& parameters) {
   const auto link = to_index(end.link);
   ContactSide<T> side;
   side.body = topology.link_body[link];
@@ -55,19 +54,18 @@ T hertz_stiffness(const ContactDescription& contact, const ContactConstants<T>& 
   for (const ContactEnd* end : {&contact.surface, &contact.points}) {
     if (!end->youngs_modulus) continue;
     const T nu = end->poisson_ratio.at(parameters);
-    compliance += (T(1.0) - nu * nu) / end->youngs_modulus->at(parameters);
+    compliance += (1.0 - nu * nu) / end->youngs_modulus->at(parameters);
   }
   const T curvature = contact.surface.shape->curvature.template of<T>(c.surface.shape) +
                       contact.points.shape->curvature.template of<T>(c.points.shape);
-  return T(4.0 / 3.0) / (compliance * sqrt(curvature));
+  return 4.0 / (3.0 * compliance * sqrt(curvature));
 }
 
 }  // namespace
 
 template <class T>
 ContactConstants<T> contact_constants(const RobotDescription& robot, const Topology& topology,
-                                      const ContactDescription& contact,
-                                      const std::vector<LinkConstants<T>>& links,
+                                      const ContactDescription& contact, const LinkFrames<T>& links,
                                       const std::vector<T>& parameters) {
   ContactConstants<T> c;
   c.surface = contact_side(robot, topology, contact, contact.surface, links, parameters);
@@ -96,10 +94,10 @@ ContactConstants<T> contact_constants(const RobotDescription& robot, const Topol
   return c;
 }
 
-#define CODESIGN_INSTANTIATE(T)                                            \
-  template ContactConstants<T> contact_constants<T>(                       \
-      const RobotDescription&, const Topology&, const ContactDescription&, \
-      const std::vector<LinkConstants<T>>&, const std::vector<T>&);
+#define CODESIGN_INSTANTIATE(T)                                                               \
+  template ContactConstants<T> contact_constants<T>(const RobotDescription&, const Topology&, \
+                                                    const ContactDescription&,                \
+                                                    const LinkFrames<T>&, const std::vector<T>&);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 

@@ -35,12 +35,15 @@ struct ContactConstants {
   FrictionConstants<T> friction;
 };
 
+/// Per link, as in Constants.
+template <class T>
+using LinkFrames = std::vector<LinkConstants<T>>;
+
 /// The numbers of a contact. @param links of Constants.
 /// @throws InputError for a link without `<inertial>`, and for two links of one body.
 template <class T>
 ContactConstants<T> contact_constants(const RobotDescription& robot, const Topology& topology,
-                                      const ContactDescription& contact,
-                                      const std::vector<LinkConstants<T>>& links,
+                                      const ContactDescription& contact, const LinkFrames<T>& links,
                                       const std::vector<T>& parameters);
 
 /// A sentence that names the first impossible number of a contact's design; empty if there is none.

@@ -31,7 +31,7 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 
 /// The signals recorded by default: position and velocity of every joint that moves a mass;
 /// friction, normal force and sliding velocity of every joint with friction; loss and torque of
-/// every gear that loses; the output of each controller.
+/// every gear that loses; gap and normal force of every contact; the output of each controller.
 std::vector<std::string> default_signals(const RobotDescription& robot,
                                          const std::vector<ControllerDescription>& controllers);
 
