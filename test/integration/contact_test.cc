@@ -144,6 +144,29 @@ TEST(Contact, OfSeveralPointsTakesExactlyItsWork) {
   }
 }
 
+// For arrows and messages: the whole force on the ball, where it acts.
+TEST(Contact, AFrameHasItsForce) {
+  const double depth = std::pow(kGravity / 1e6, 2.0 / 3.0);
+  const Problem problem = problem_of(
+      free_ball("", touching_ground("shape='plane'", "",
+                                    "<codesign:friction mu_static='0.3' mu_dynamic='0.3'/>")),
+      "duration: 0.1\ninitial_state: {free: {translation: [0.2, 0, " +
+          std::to_string(kRadius - depth) + "], linear_velocity: [1, 0, 0]}}\n");
+  Simulation simulation(problem, problem.parameters());
+  ASSERT_TRUE(simulation.start().ok());
+  ASSERT_EQ(simulation.names().frictions, std::vector<std::string>{"touch"});
+  EXPECT_FALSE(simulation.names().friction_is_torque[0]);
+  Frame frame;
+  simulation.sample(0.0, &frame);
+  const FrictionSample& sample = frame.frictions[0];
+  EXPECT_NEAR(sample.normal_force, kGravity, 0.3);
+  EXPECT_NEAR(sample.friction, -0.3 * sample.normal_force, 1e-9);
+  EXPECT_NEAR(sample.sliding_velocity, 1.0, 1e-12);
+  const Eigen::Vector3d force(sample.friction, 0.0, sample.normal_force);
+  EXPECT_LT((sample.force - force).norm(), 1e-9);
+  EXPECT_LT((sample.position - Eigen::Vector3d(0.2, 0.0, -0.5 * depth)).norm(), 1e-6);
+}
+
 // A journal of 10 mm in a bearing that is wider by the clearance, in place of a hinge.
 TEST(Contact, AHingeWithClearanceIsNearlyAHinge) {
   const double duration = 0.7;
