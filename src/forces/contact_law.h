@@ -103,21 +103,26 @@ ContactForce<T> contact_force(const ContactLaw& law, bool has_loss, const T& gap
                               const ContactNumbers<T>& c, int part) {
   ContactForce<T> force;
   name_part(gap, part + kContactTouch);
+  const T zero(0.0);
   const bool jumps = has_loss && !law.is_factor;
-  force.touches = jumps ? is_below(gap, T(0.0), false) : is_below_kink(gap, T(0.0), false);
+  force.touches = jumps ? is_below(gap, zero, false) : is_below_kink(gap, zero, false);
   if (!force.touches) return force;
-  const T depth = -gap;
-  force.elastic =
-      c.stiffness * (law.has_exponent ? contact_power(depth, c.exponent, c.onset) : depth);
-  force.normal = force.elastic;
+  ContactValues<T> x;
+  x.depth = -gap;
+  x.rate = -gap_rate;
+  x.elastic = c.stiffness;
+  x.elastic *= law.has_exponent ? contact_power(x.depth, c.exponent, c.onset) : x.depth;
+  x.loss = c.loss;
+  force.elastic = force.normal = x.elastic;
   if (!has_loss) return force;
-  const T growth = law.growth.of<T>(ContactValues<T>{depth, T(-gap_rate), force.elastic, c.loss});
+  const T growth = law.growth.of<T>(x);
   name_part(gap, part + kContactParting);
-  if (!is_below_kink(T(0.0), growth, true)) {
-    force.normal = T(0.0);
+  if (!is_below_kink(zero, growth, true)) {
+    force.normal = zero;
     return force;
   }
-  force.normal = law.is_factor ? T(force.elastic * growth) : growth;
+  force.normal = growth;
+  if (law.is_factor) force.normal *= x.elastic;
   return force;
 }
 
