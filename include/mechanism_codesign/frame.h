@@ -19,17 +19,18 @@ struct JointSample {
   double effort = 0.0;
 };
 
-/// Friction in one joint or loop.
+/// Friction in one joint or loop, or the forces of a contact of two bodies, whose sample is last.
 struct FrictionSample {
   /// Friction on the child along the joint axis, -L of doc/theory.md (13) [N or N m]: negative for
   /// positive velocity. For a contact that slips in several directions (table, planar and spherical
-  /// joints), minus the magnitude of (13a).
+  /// joints), minus the magnitude of (13a); of a contact of two bodies minus that of (13m).
   double friction = 0.0;
-  double normal_force = 0.0;  ///< N of theory (12) [N]
+  double normal_force = 0.0;  ///< N of theory (12), or of all points, (13l) [N]
   /// of the child relative to the parent along the joint axis, or the speed of slip [m/s or rad/s]
   double sliding_velocity = 0.0;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< the joint's point, in world axes [m]
-  /// on the child link at `position`, in world axes [N]
+  /// on the child link at `position`, in world axes [N]; of a contact with its normal force, on the
+  /// link that touches with its points
   Eigen::Vector3d force = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< on the child link, in world axes [N m]
 };
@@ -55,7 +56,7 @@ struct FrameNames {
   std::vector<std::string> joints;
   /// number of `joints` that belong to the URDF tree; they come first
   std::size_t tree_joints = 0;
-  std::vector<std::string> frictions;  ///< joints and loops with friction
+  std::vector<std::string> frictions;  ///< joints and loops with friction, then contacts
   /// per entry of `frictions`: whether the friction is a torque [N m], else a force [N]
   std::vector<bool> friction_is_torque;
   std::vector<std::string> controllers;

@@ -10,6 +10,7 @@
 #include "assembly/reaction_advice.h"
 #include "assembly/redundancy.h"
 #include "assembly/start_beyond_stop.h"
+#include "assembly/start_overlap.h"
 #include "description/study.h"
 #include "math/arrays.h"
 #include "mechanism/constants.h"
@@ -211,7 +212,10 @@ std::shared_ptr<const CompiledSystem> make_system(const RobotDescription& robot,
   require_free_drives(*system, start.parameters, start.assembly, start.equations);
   require_start(*system, start.assembly, positions);
   append(start.assembly.warnings(), &found);
-  if (positions.ok()) append(starts_beyond_stops(*system, start.state, &start.equations), &found);
+  if (positions.ok()) {
+    append(starts_beyond_stops(*system, start.state, &start.equations), &found);
+    append(find_overlaps(*system, start.state, &start.equations), &found);
+  }
   require_determined_motion(*system, start.parameters, start.assembly, &start.equations);
   if (const Layout& layout = system->layout(); layout.has_forest()) {
     const Redundancy in_loops = analyse_redundancy(*system, &start.equations, start.assembly,

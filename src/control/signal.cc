@@ -151,6 +151,9 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
                spring && is_of_spring(term)) {
       reference.kind = kind_of(SignalOwner::kSpring, term);
       reference.spring = *spring;
+    } else if (is_of_contact(term, robot)) {
+      reference.kind = kind_of(SignalOwner::kContact, term);
+      reference.contact = find_named(robot.contacts, term.object).value();
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference.kind = kind_of(SignalOwner::kController, term);
       reference.controller = *controller;

@@ -29,6 +29,7 @@ struct SignalReference : CoordinateIndex {
   int axes = -1;
   int controller = -1;  ///< index of a controller
   int spring = -1;      ///< index in RobotDescription::spring_dampers
+  int contact = -1;     ///< index in RobotDescription::contacts
 };
 
 /// An expression of signals with its names resolved.

@@ -6,7 +6,8 @@
 namespace codesign {
 
 const Laws& standard_laws() {
-  static const Laws laws{friction_laws(), joint_laws(), control_laws(), losses()};
+  static const Laws laws{friction_laws(), joint_laws(),   control_laws(),
+                         losses(),        contact_laws(), contact_shapes()};
   return laws;
 }
 

@@ -10,6 +10,8 @@
 
 #include "description/expression.h"
 #include "description/loss_law.h"
+#include "forces/contact_law.h"
+#include "forces/contact_shape.h"
 #include "forces/control_law.h"
 #include "forces/friction_law.h"
 #include "joints/joint_law.h"
@@ -30,6 +32,8 @@ struct Laws {
   std::vector<RowReference<JointLaw>> joints;
   std::vector<ControllerKind> controllers;
   std::vector<LossKind> losses;
+  std::vector<ContactModel> contacts;
+  std::vector<ShapeKind> shapes;
 };
 
 /// The laws of doc/annotations.md and doc/study.md.
@@ -244,6 +248,36 @@ struct SpringDamperDescription {
   SourceLocation where;
 };
 
+/// One side of a contact: a shape that a link carries.
+struct ContactEnd {
+  int link = -1;
+  PoseDescription origin;  ///< the frame of the shape in that of the link
+  ShapeKind shape = ShapeKind::kSphere;
+  Quantity radius, length;                 ///< [m]; those that the shape does not have are zero
+  QuantityVector size;                     ///< [m]
+  std::optional<Quantity> youngs_modulus;  ///< [Pa]; none: rigid
+  Quantity poisson_ratio;                  ///< [-]
+};
+
+/// `<codesign:contact>` between a shape of each of two links; theory (13k) to (13m).
+struct ContactDescription {
+  std::string name;
+  ContactEnd surface, points;  ///< the side that touches with its surface, and with its points
+  ContactModel model = ContactModel::kHuntCrossley;
+  std::optional<Quantity> stiffness;  ///< [N/m^n]; none: by Hertz from the ends
+  Quantity exponent;                  ///< n [-]
+  /// lambda [s/m], or c [N s/m]; none: by restitution, or no loss
+  std::optional<Quantity> loss;
+  std::optional<Quantity> restitution;  ///< [-]
+  Quantity impact_velocity;             ///< at which `restitution` holds [m/s]
+  std::optional<FrictionDescription> friction;
+  SourceLocation where;
+
+  bool has_loss() const { return loss || restitution; }
+  /// The element for messages: `<codesign:contact name="sole">`.
+  std::string element() const { return "<codesign:contact name=\"" + name + "\">"; }
+};
+
 /// A mechanism as the annotated URDF describes it; nothing is derived from it yet.
 struct RobotDescription {
   // Defined in one file: the members of all lists would else be compiled wherever one is copied or
@@ -265,6 +299,7 @@ struct RobotDescription {
   std::vector<JointDescription> joints;  ///< tree joints in file order, then loops in file order
   std::vector<CouplingDescription> couplings;
   std::vector<SpringDamperDescription> spring_dampers;
+  std::vector<ContactDescription> contacts;
   Laws laws = standard_laws();  ///< those that its files and its study may name
   std::string file;             ///< the file it was read from, for messages
   Warnings warnings;            ///< from reading the files, in the order of the files

@@ -51,8 +51,13 @@ enum class SignalKind {
   kImuAngularVelocity,  ///< of a link, in its own axes
   kSpringForce,         ///< tension of a spring-damper; theory (13b)
   kSpringLength,
-  kSpringSpeed,    ///< rate of its length
-  kKineticEnergy,  ///< of the whole mechanism; theory (14b)
+  kSpringSpeed,  ///< rate of its length
+  kContactGap,   ///< of the nearest point of two shapes, negative by the penetration; theory (13k)
+  kContactGapRate,
+  kContactNormalForce,    ///< of all points together; theory (13l)
+  kContactShapeFriction,  ///< magnitude of the sum; theory (13m)
+  kContactSlipSpeed,      ///< of the nearest point
+  kKineticEnergy,         ///< of the whole mechanism; theory (14b)
   kPotentialEnergy,
   kTotalEnergy,
   kTotalFrictionPower,  ///< of the whole mechanism; theory (14c)
@@ -86,7 +91,7 @@ enum class PowerKind {
 };
 
 /// What has a quantity.
-enum class SignalOwner { kJoint, kController, kLink, kSpring, kMechanism };
+enum class SignalOwner { kJoint, kController, kLink, kSpring, kContact, kMechanism };
 
 /// On what a quantity depends, besides time and parameters.
 enum class SignalNeeds {
@@ -281,6 +286,21 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry(
         {K::kSpringSpeed, Of::kSpring, "speed", "m/s", nullptr, Needs::kMotion},
         [](const auto& view, const auto& of) { return spring_speed(view, to_index(of.spring)); }),
+    signal_entry(
+        {K::kContactGap, Of::kContact, "gap", "m", nullptr, Needs::kMotion, K::kContactGapRate},
+        [](const auto& view, const auto& of) { return nearest_point(view, of.contact).gap; }),
+    signal_entry(
+        {K::kContactGapRate, Of::kContact, "gap_rate", "m/s", nullptr, Needs::kMotion},
+        [](const auto& view, const auto& of) { return nearest_point(view, of.contact).gap_rate; }),
+    signal_entry(
+        {K::kContactNormalForce, Of::kContact, "normal_force", "N", nullptr, Needs::kMotion},
+        [](const auto& view, const auto& of) { return contact_normal_force(view, of.contact); }),
+    signal_entry(
+        {K::kContactShapeFriction, Of::kContact, "friction", "N", nullptr, Needs::kMotion},
+        [](const auto& view, const auto& of) { return contact_friction(view, of.contact); }),
+    signal_entry(
+        {K::kContactSlipSpeed, Of::kContact, "sliding_speed", "m/s", nullptr, Needs::kMotion},
+        [](const auto& view, const auto& of) { return contact_slip_speed(view, of.contact); }),
     signal_entry(
         {K::kKineticEnergy, Of::kMechanism, "kinetic_energy", "J", nullptr, Needs::kMotion},
         [](const auto& view, const auto&) { return kinetic_energy(view); }),

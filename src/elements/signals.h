@@ -3,6 +3,7 @@
 
 #include "description/formula.h"
 #include "description/signal_table.h"
+#include "elements/body_contact.h"
 #include "elements/controllers.h"
 #include "elements/effort_rate.h"
 #include "elements/energy.h"

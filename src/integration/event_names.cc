@@ -129,6 +129,11 @@ SwitchName name_of(const System& system, const SwitchOrigin* origin) {
     return {"joint \"" + joint + "\"", joint,
             origin->part == kUpperStop ? "touch of the upper stop" : "touch of the lower stop"};
   }
+  if (const auto* contact = source.as<ContactDescription>()) {
+    const bool parts = origin->part % kContactParts == kContactParting;
+    return {"contact \"" + contact->name + "\"", contact->name,
+            parts ? "parting of bodies that still overlap" : "touch"};
+  }
   if (const auto* bristle = source.as<BristleContact>()) {
     const std::string joint = joint_at(system, bristle->pair, bristle->element);
     return {"joint \"" + joint + "\"", joint,

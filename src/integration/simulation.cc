@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
+#include "integration/contact_watch.h"
 #include "integration/event_names.h"
 #include "integration/integrator.h"
 #include "integration/run_ends.h"
@@ -37,7 +38,8 @@ class Simulation::Implementation {
         parameters_(parameters),
         observer_(*system_, signals),
         integrator_(make_integrator(*system_)),
-        stops_(*system_) {
+        stops_(*system_),
+        contacts_(*system_) {
     sample_.resize(system_->layout());
   }
 
@@ -45,6 +47,7 @@ class Simulation::Implementation {
     const CpuTimer timer;
     const Status status = integrator_->start(parameters_);
     stops_.start();
+    contacts_.start();
     statistics_ = integrator_->statistics();
     statistics_.cpu_seconds += timer.seconds();
     return status;
@@ -113,12 +116,19 @@ class Simulation::Implementation {
   Events events() const { return events_of(*system_, integrator_->events()); }
   std::int64_t event_count() const { return integrator_->events().count(); }
   const std::vector<StopExcess>& stops() const { return stops_.excesses(); }
-  const Warnings& warnings() const { return warnings_ = integrator_->warnings(); }
+  const Warnings& warnings() const {
+    warnings_ = integrator_->warnings();
+    append(contacts_.warnings(), &warnings_);
+    return warnings_;
+  }
 
  private:
   Status step(double limit) {
     Status status = integrator_->advance(limit);
-    if (status.ok()) stops_.look(integrator_->state(), &integrator_->equations());
+    if (status.ok()) {
+      stops_.look(integrator_->state(), &integrator_->equations());
+      contacts_.look(integrator_->state(), &integrator_->equations());
+    }
     return status;
   }
   /// Rounding may leave the end of a step, or an instant of a controller, a last bit before `time`.
@@ -137,6 +147,7 @@ class Simulation::Implementation {
   Observer observer_;
   std::unique_ptr<Integrator> integrator_;
   StopWatch stops_;
+  ContactWatch contacts_;
   State<double> sample_;
   Statistics statistics_;
   mutable Warnings warnings_;

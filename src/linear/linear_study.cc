@@ -127,6 +127,8 @@ LinearStudy with_inputs(Study study, const std::vector<double>& parameters, doub
 }
 
 RobotDescription without_friction(RobotDescription robot) {
+  for (ContactDescription& contact : robot.contacts)
+    if (contact.friction) remove_coefficients(&*contact.friction);
   for (JointDescription& joint : robot.joints) {
     if (joint.friction) remove_coefficients(&*joint.friction);
     joint.dry_friction = Quantity(0.0);

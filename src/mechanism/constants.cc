@@ -249,6 +249,10 @@ void evaluate_constants(const RobotDescription& robot, const Topology& topology,
   constants->springs.clear();
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     constants->springs.push_back(spring_constants(robot, topology, spring, *constants, parameters));
+  constants->contacts.clear();
+  for (const ContactDescription& contact : robot.contacts)
+    constants->contacts.push_back(
+        contact_constants(robot, topology, contact, constants->links, parameters));
   constants->couplings.resize(topology.couplings.size());
   for (std::size_t k = 0; k < topology.couplings.size(); ++k)
     set_coupling(topology.couplings[k], parameters, &constants->couplings[k]);
@@ -273,6 +277,9 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
     if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping +
                        constants.springs[k].free_length))
       return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
+  for (std::size_t k = 0; k < robot.contacts.size(); ++k)
+    if (std::string fault = contact_fault(robot.contacts[k], constants.contacts[k]); !fault.empty())
+      return fault;
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     double sum = constants.couplings[k].offset;
     for (double coefficient : constants.couplings[k].coefficients) sum += coefficient;

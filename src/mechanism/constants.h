@@ -8,6 +8,7 @@
 #include "description/robot.h"
 #include "joints/pair_constants.h"
 #include "math/scalar.h"
+#include "mechanism/contact_constants.h"
 #include "mechanism/mass_properties.h"
 #include "mechanism/rigid_groups.h"
 #include "mechanism/topology.h"
@@ -21,13 +22,6 @@ struct BodyConstants {
   T mass{0.0};                        ///< [kg]
   Matrix3<T> J = Matrix3<T>::Zero();  ///< inertia about the centre of mass, in body axes [kg m^2]
   Vector3<T> centre = Vector3<T>::Zero();  ///< centre of mass in the base link's frame [m]
-};
-
-/// The pose of a frame in the frame of its body, or in the ground.
-template <class T>
-struct LinkConstants {
-  Vector3<T> s = Vector3<T>::Zero();      ///< origin [m]
-  Matrix3<T> R = Matrix3<T>::Identity();  ///< frame axes to body axes
 };
 
 /// A spring-damper between two points; theory (13b).
@@ -56,6 +50,7 @@ struct Constants {
   /// per joint: its frame, fixed in the child (of a loop: the successor); valid likewise
   std::vector<LinkConstants<T>> joint_frames;
   std::vector<SpringDamperConstants<T>> springs;
+  std::vector<ContactConstants<T>> contacts;  ///< as RobotDescription::contacts
   std::vector<CouplingConstants<T>> couplings;
 };
 
@@ -63,7 +58,8 @@ struct Constants {
 /// Study::parameters.
 /// @param workspace, constants overwritten; their memory is used again, so that later designs of
 /// the same mechanism allocate nothing.
-/// @throws InputError for a spring-damper on a link without <inertial>.
+/// @throws InputError for a spring-damper or a contact of a link without <inertial>, and as
+/// contact_constants().
 template <class T>
 void evaluate_constants(const RobotDescription& robot, const Topology& topology,
                         const std::vector<T>& parameters, MassWorkspace<T>* workspace,

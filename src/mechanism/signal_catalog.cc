@@ -65,6 +65,8 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
     if (link.name == name) add_quantities(SignalOwner::kLink, always, &offer);
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     if (spring.name == name) add_quantities(SignalOwner::kSpring, always, &offer);
+  for (const ContactDescription& contact : robot.contacts)
+    if (contact.name == name) add_quantities(SignalOwner::kContact, always, &offer);
   if (name == kMechanism) add_quantities(SignalOwner::kMechanism, always, &offer);
   return offer;
 }
@@ -76,6 +78,7 @@ Names all_names(const RobotDescription& robot,
   for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
   for (const LinkDescription& link : robot.links) names.push_back(link.name);
   for (const SpringDamperDescription& spring : robot.spring_dampers) names.push_back(spring.name);
+  for (const ContactDescription& contact : robot.contacts) names.push_back(contact.name);
   names.emplace_back(kMechanism);
   return names;
 }
@@ -147,6 +150,13 @@ bool is_of_spring(const SignalTerm& term) {
   return find_quantity(SignalOwner::kSpring, term.quantity) != nullptr;
 }
 
+bool is_of_contact(const SignalTerm& term, const RobotDescription& robot) {
+  return find_quantity(SignalOwner::kContact, term.quantity) != nullptr &&
+         std::any_of(
+             robot.contacts.begin(), robot.contacts.end(),
+             [&](const ContactDescription& contact) { return contact.name == term.object; });
+}
+
 bool is_reaction(const SignalTerm& term) {
   const SignalFacts* facts = find_quantity(SignalOwner::kJoint, term.quantity);
   return facts != nullptr && facts->shape == SignalShape::kVector;
@@ -158,8 +168,8 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
   for (const SignalTerm& term : signal.terms) {
     const Offer offer = offer_of(term.object, robot, controllers);
     if (!offer.exists)
-      throw unknown_name(signal.where, element, "joint, link, spring or controller", term.object,
-                         all_names(robot, controllers));
+      throw unknown_name(signal.where, element, "joint, link, spring, contact or controller",
+                         term.object, all_names(robot, controllers));
     check_term(term, offer, signal.where, element);
   }
   check_axes(signal, robot, element);
@@ -186,6 +196,9 @@ std::vector<std::string> default_signals(const RobotDescription& robot,
     signals.push_back(joint.name + "/gear_loss");
     if (has_gear_torque(joint)) signals.push_back(joint.name + "/gear_torque");
   }
+  for (const ContactDescription& contact : robot.contacts)
+    for (const char* quantity : {"/gap", "/normal_force"})
+      signals.push_back(contact.name + quantity);
   for (const ControllerDescription& controller : controllers)
     signals.push_back(controller.name + "/output");
   return signals;

@@ -16,6 +16,9 @@ namespace codesign {
 bool is_of_mechanism(const SignalTerm& term);
 /// Whether a term is a quantity of a spring-damper: no other object has one of these.
 bool is_of_spring(const SignalTerm& term);
+/// Whether a term is a quantity of a contact. No joint, link, loop or spring-damper has the name of
+/// a contact.
+bool is_of_contact(const SignalTerm& term, const RobotDescription& robot);
 /// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint
 /// from a link of the same name.
 bool is_reaction(const SignalTerm& term);
@@ -28,7 +31,7 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
 
 /// The signals recorded by default: position and velocity of every joint that moves a mass;
 /// friction, normal force and sliding velocity of every joint with friction; loss and torque of
-/// every gear that loses; the output of each controller.
+/// every gear that loses; gap and normal force of every contact; the output of each controller.
 std::vector<std::string> default_signals(const RobotDescription& robot,
                                          const std::vector<ControllerDescription>& controllers);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "elements/body_contact.h"
 #include "equations/compiled_system.h"
 #include "equations/formulas.h"
 #include "math/arrays.h"
@@ -58,16 +59,22 @@ void Observer::name_frictions() {
     const int element = std::min(load.element, static_cast<int>(pair.chain.size()) - 1);
     const JointDescription& joint =
         system_.robot().joints[to_index(pair.chain[to_index(element)].joint)];
-    frictions_.push_back({load.pair, load.element});
+    frictions_.push_back({load.pair, load.element, -1});
     names_.frictions.push_back(joint.name);
     names_.friction_is_torque.push_back(
         !joint.is_slide() && !(pair.kind == PairKind::kCylindrical && load.element == 1));
   }
   for (int contact : system_.contacts()) {
     const Pair& pair = topology.pairs[to_index(contact)];
-    frictions_.push_back({contact, kContact});
+    frictions_.push_back({contact, kContact, -1});
     names_.frictions.push_back(system_.robot().joints[to_index(pair.friction_joint)].name);
     names_.friction_is_torque.push_back(pair.kind == PairKind::kSpherical);
+  }
+  const std::vector<ContactDescription>& touching = system_.robot().contacts;
+  for (std::size_t k = 0; k < touching.size(); ++k) {
+    frictions_.push_back({-1, -1, static_cast<int>(k)});
+    names_.frictions.push_back(touching[k].name);
+    names_.friction_is_torque.push_back(false);
   }
 }
 
@@ -152,6 +159,10 @@ void Observer::observe_frictions(Equations<double>* equations, Frame* frame) con
   frame->frictions.resize(frictions_.size());
   for (std::size_t k = 0; k < frictions_.size(); ++k) {
     const FrictionSource& source = frictions_[k];
+    if (source.contact >= 0) {
+      observe_touch(source.contact, equations, &frame->frictions[k]);
+      continue;
+    }
     const Pair& pair = system_.topology().pairs[to_index(source.pair)];
     const PairConstants<double>& c = equations->constants().pairs[to_index(source.pair)];
     FrictionSample& sample = frame->frictions[k];
@@ -193,6 +204,26 @@ void Observer::observe_contact(int index, Equations<double>* equations,
   const Eigen::Matrix3d axes = equations->formulas().body(pair.body_i).A * c.C_i;
   sample->force = axes.leftCols<2>() * on_child.head<2>();
   sample->torque = axes.col(2) * on_child[2];
+}
+
+void Observer::observe_touch(int index, Equations<double>* equations,
+                             FrictionSample* sample) const {
+  const StateView<double>& view = equations->formulas().view();
+  const TouchPoint<double> nearest = nearest_point(view, index);
+  *sample = {};
+  sample->sliding_velocity = nearest.slip.norm();
+  Eigen::Vector3d friction = Eigen::Vector3d::Zero(), place = Eigen::Vector3d::Zero();
+  for_each_touch(view, to_index(index),
+                 [&](const TouchPoint<double>& point, const ContactForce<double>& force,
+                     const Eigen::Vector3d& of_point) {
+                   sample->normal_force += force.normal;
+                   sample->force += force.normal * point.normal + of_point;
+                   friction += of_point;
+                   place += force.normal * point.place;
+                 });
+  sample->friction = -friction.norm();
+  sample->position =
+      sample->normal_force > 0.0 ? Eigen::Vector3d(place / sample->normal_force) : nearest.place;
 }
 
 void Observer::observe_controllers(const State<double>& state, Equations<double>* equations,

@@ -44,6 +44,7 @@ class Observer {
   static constexpr int kContact = -2;
   struct FrictionSource {
     int pair = -1, element = -1;
+    int contact = -1;  ///< index in RobotDescription::contacts; then there is no pair
   };
 
   void name_joints();
@@ -53,6 +54,7 @@ class Observer {
                      Frame* frame) const;
   void observe_frictions(Equations<double>* equations, Frame* frame) const;
   void observe_contact(int index, Equations<double>* equations, FrictionSample* sample) const;
+  void observe_touch(int index, Equations<double>* equations, FrictionSample* sample) const;
   void observe_controllers(const State<double>& state, Equations<double>* equations,
                            Frame* frame) const;
   void observe_links(const VectorX<double>& theta, Equations<double>* equations,

@@ -5,6 +5,7 @@
 
 #include "codegen/traced.h"
 #include "integration/mechanisms.h"
+#include "integration/touching.h"
 #include "joints/pair_constants.h"
 #include "joints/pair_rows.h"
 #include "mechanism_codesign/gradient.h"
@@ -73,8 +74,32 @@ T cauchy(const LossValues<T>& x) {
 }
 const LossLaw kCauchy{"cauchy", {}, {cauchy, cauchy}, true};
 
+/// The normal force k delta^n (1 + lambda delta')^2, and a plane that rises with x at 45 degrees.
+template <class T>
+T squared(const ContactValues<T>& x) {
+  const T growth = T(1.0) + x.loss * x.rate;
+  return growth * growth;
+}
+const ContactLaw kSquared{"squared", "squared", "dissipation", {squared, squared}};
+
+template <class T>
+SurfaceDistance<T> above_ramp(const Vector3<T>& at, const ShapeNumbers<T>&) {
+  const T half(std::sqrt(0.5));
+  return {T(half * (at[2] - at[0])), Vector3<T>(T(-half), T(0.0), half)};
+}
+constexpr ContactShape ramp() {
+  ContactShape shape;
+  shape.name = "ramp";
+  shape.surface = {above_ramp, above_ramp};
+  shape.holds_points = shape.flat = true;
+  return shape;
+}
+constexpr ContactShape kRamp = ramp();
+
 Laws own_laws() {
   Laws laws = standard_laws();
+  laws.contacts.emplace_back(kSquared);
+  laws.shapes.emplace_back(kRamp);
   laws.friction.emplace_back(kGauss);
   laws.joints.emplace_back(kPointInPlane);
   laws.joints.emplace_back(kSleeve);
@@ -266,6 +291,35 @@ TEST(OwnLaws, AFunctionOfTheSpeedAlsoSlipsInSeveralDirections) {
   ASSERT_TRUE(simulation.start().ok());
   ASSERT_TRUE(simulation.advance_to(0.2).ok());
   EXPECT_LT(simulation.statistics().energy_error, 1e-4);
+}
+
+// The ramp is a plane that the library turns; Hunt and Crossley's law with twice the dissipation
+// differs by (lambda delta')^2 only.
+TEST(OwnLaws, AContactHasLawsAndShapesOfItsOwn) {
+  const auto end_of = [](const std::string& model, const std::string& on,
+                         const std::string& dissipation) {
+    const Problem problem = own(
+        free_ball("", "<codesign:contact name='touch' stiffness='1e6' model='" + model +
+                          "' dissipation='" + dissipation + "'><predecessor link='ground' " + on +
+                          "</predecessor><successor link='ball' shape='sphere' radius='0.05' "
+                          "codesign:radius='${radius}'/></codesign:contact>"),
+        "duration: 0.4\ninitial_state: {free: {translation: [0, 0, 0.3]}}\nparameters: {radius: "
+        "{}}\nobjective: {terminal: [{signal: ball/position/x}]}\nsolver: {relative_tolerance: "
+        "1.0e-10, absolute_tolerance: 1.0e-12}\n");
+    Evaluator evaluator(problem);
+    const Evaluation run = evaluator.evaluate(problem.start(), true);
+    EXPECT_TRUE(run.status.ok()) << run.status.cause;
+    return Eigen::Vector2d(run.objective, run.gradient[0]);
+  };
+  const std::string plane = "shape='plane'><origin rpy='0 -0.7853981633974483 0'/>";
+  const Eigen::Vector2d turned = end_of("squared", plane, "0.05"),
+                        ramp = end_of("squared", "shape='ramp'>", "0.05"),
+                        nearly = end_of("hunt_crossley", plane, "0.1"),
+                        other = end_of("hunt_crossley", plane, "0.3");
+  EXPECT_LT((turned - ramp).norm(), 1e-9 * ramp.norm());
+  EXPECT_LT((turned - nearly).norm(), 0.02 * ramp.norm());
+  EXPECT_GT((turned - nearly).norm(), 1e-5 * ramp.norm());
+  EXPECT_GT((turned - other).norm(), 0.02 * ramp.norm());
 }
 
 TEST(OwnLaws, FilesNameThemOnlyWithTheirRows) {

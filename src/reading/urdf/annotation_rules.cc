@@ -46,6 +46,30 @@ void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
   }
 }
 
+/// `<codesign:contact>`: its ends have a shape, too.
+void add_contact(std::vector<ElementRule>* rules) {
+  const std::string path = "robot/codesign:contact";
+  rules->push_back(Rule(path)
+                       .strict()
+                       .plain({"name", "model"})
+                       .twins({"stiffness", "exponent", "dissipation", "damping", "restitution",
+                               "impact_velocity"})
+                       .children({"predecessor", "successor", "codesign:friction"}));
+  for (const char* end : {"/predecessor", "/successor"}) {
+    rules->push_back(Rule(path + end)
+                         .strict()
+                         .plain({"link", "shape"})
+                         .twins({"radius", "length", "size", "youngs_modulus", "poisson_ratio"})
+                         .children({"origin"}));
+    rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
+  }
+  rules->push_back(
+      Rule(path + "/codesign:friction")
+          .strict()
+          .plain({"model"})
+          .twins({"mu_static", "mu_dynamic", "transition_velocity", "stribeck_velocity"}));
+}
+
 Names friction_attributes() {
   Names names;
   visit_friction_numbers(
@@ -89,8 +113,8 @@ void add_link_rules(std::vector<ElementRule>* rules) {
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
-  rules.push_back(
-      Rule("robot").children({"codesign:parameter", "codesign:set", "codesign:spring_damper"}));
+  rules.push_back(Rule("robot").children(
+      {"codesign:parameter", "codesign:set", "codesign:spring_damper", "codesign:contact"}));
   rules.push_back(
       Rule("robot/codesign:parameter").strict().plain({"name", "value", "lower", "upper", "unit"}));
   rules.push_back(Rule("robot/codesign:set").strict().plain({"name", "value", "lower", "upper"}));
@@ -100,6 +124,7 @@ std::vector<ElementRule> make_rules() {
                       .twins({"stiffness", "damping", "free_length"})
                       .children({"predecessor", "successor"}));
   add_ends("robot/codesign:spring_damper", &rules);
+  add_contact(&rules);
 
   add_link_rules(&rules);
 

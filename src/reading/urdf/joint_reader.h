@@ -37,6 +37,10 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
 ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context);
 
+/// Reads one `<codesign:contact>`: shapes, normal force and friction; theory (13k) to (13m).
+/// @throws InputError for shapes that cannot touch each other, naming those that can.
+ContactDescription read_contact(const XmlElement& element, const ReadContext& context);
+
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);
 

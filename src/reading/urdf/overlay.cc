@@ -88,7 +88,8 @@ class Merger {
     if (!known)
       patch.fail(
           "an overlay cannot contain this element", "<" + tag + ">",
-          "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper");
+          "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper, "
+          "codesign:contact");
     const std::string name = patch.text("name");
     XMLElement* like = find_like(base_->robot(), patch.node());
     const bool merged_already = !seen_.insert(tag + " " + name).second;

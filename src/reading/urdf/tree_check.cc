@@ -74,7 +74,7 @@ std::optional<InputError> mimic_fault(const JointDescription& joint,
 }  // namespace
 
 void check_names(const RobotDescription& robot) {
-  std::set<std::string> links, joints, couplings, springs;
+  std::set<std::string> links, joints, couplings, springs, contacts;
   for (const LinkDescription& link : robot.links)
     insert_unique(link.name, link.where, "link", &links);
   for (const JointDescription& joint : robot.joints)
@@ -83,6 +83,15 @@ void check_names(const RobotDescription& robot) {
     insert_unique(coupling.name, coupling.where, "coupling", &couplings);
   for (const SpringDamperDescription& spring : robot.spring_dampers)
     insert_unique(spring.name, spring.where, "codesign:spring_damper", &springs);
+  for (const ContactDescription& contact : robot.contacts) {
+    insert_unique(contact.name, contact.where, "codesign:contact", &contacts);
+    for (const std::set<std::string>* others : {&links, &joints, &springs})
+      if (others->count(contact.name) != 0)
+        throw InputError({contact.where, contact.element(),
+                          "a link, joint, loop or spring-damper has this name, too, so that "
+                          "signals of the contact would be ambiguous",
+                          contact.name, "a name of its own"});
+  }
 }
 
 void close_with_second_parents(RobotDescription* robot) {

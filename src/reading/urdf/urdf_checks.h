@@ -47,7 +47,7 @@ Warnings cut_trailing_text(SourceText* source);
 void check_with_urdfdom(const XmlDocument& document);
 
 /// Checks that names are unique: among links, among joints and loops, among couplings, among
-/// spring-dampers. @throws InputError
+/// spring-dampers, among contacts. @throws InputError
 void check_names(const RobotDescription& robot);
 
 /// For a link that is the child of several joints: keeps as tree joint the joint by which a walk

@@ -153,6 +153,8 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   read_constraints(element, context, &robot);
   for (const XmlElement& spring : element.children("codesign:spring_damper"))
     robot.spring_dampers.push_back(read_spring_damper(spring, context));
+  for (const XmlElement& contact : element.children("codesign:contact"))
+    robot.contacts.push_back(read_contact(contact, context));
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   robot.used_parameters = context.table.used;

@@ -166,12 +166,14 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// Gives each joint and loop with friction the law. Removes attributes that the law does not use,
-/// since a file with them could not be read.
+/// since a file with them could not be read. Contacts keep theirs where the law has states, which
+/// they cannot have.
 void write_friction_law(XMLElement* robot, const FrictionLaw& law) {
   for (XMLElement* joint = robot->FirstChildElement(); joint != nullptr;
        joint = joint->NextSiblingElement()) {
     XMLElement* friction = joint->FirstChildElement("codesign:friction");
     if (friction == nullptr) continue;
+    if (law.bristle && std::string(joint->Name()) == "codesign:contact") continue;
     const bool direct = friction->Attribute("coulomb") != nullptr;
     friction->SetAttribute("model", law.name);
     const auto remove = [friction](const char* attribute) {

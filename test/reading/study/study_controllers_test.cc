@@ -43,7 +43,7 @@ TEST(StudyControllers, AnInputMayReadEarlierControllersOnly) {
                 .object,
             "outer");
   expect_fault(kLeastStudy + "controllers:\n" + inner + outer, "controllers.inner.input",
-               "unknown joint, link, spring or controller", 4);
+               "unknown joint, link, spring, contact or controller", 4);
 }
 
 TEST(StudyControllers, LawsThatKnowTheModelReadTheJointTheyDrive) {
