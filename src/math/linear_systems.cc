@@ -60,7 +60,9 @@ SystemEigen system_eigen(const MatrixXd& A) {
   MatrixXd balanced = A;
   const Eigen::VectorXd scale = balance(&balanced);
   const Eigen::EigenSolver<MatrixXd> solver(balanced);
-  SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}};
+  SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}, {}};
+  eigen.left = scale.cwiseInverse().asDiagonal() *
+               Eigen::MatrixXcd(solver.eigenvectors()).inverse().transpose();
   const Eigen::VectorXcd moved =
       Eigen::EigenSolver<MatrixXd>(rounded(balanced), false).eigenvalues();
   eigen.uncertainty.resize(A.rows());
@@ -76,6 +78,20 @@ MatrixXd matrix_exponential(const MatrixXd& A) {
   const MatrixXd result = balanced.exp();
   return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
 }
+
+Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A) {
+  MatrixXd balanced = A.real();
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::MatrixXcd similar = scale.cwiseInverse().asDiagonal() * A * scale.asDiagonal();
+  const Eigen::MatrixXcd result = similar.exp();
+  return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
+}
+
+Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
+  return A.partialPivLu().solve(b);
+}
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A * B; }
 
 TransferFunction::TransferFunction(const MatrixXd& A, const Eigen::VectorXd& b,
                                    const Eigen::RowVectorXd& c, double d)

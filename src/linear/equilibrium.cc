@@ -1,14 +1,14 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/equilibrium.h"
+#include "linear/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "linear/integral_rest.h"
+#include "linear/resting_mechanism.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "observation/observer.h"
-#include "statics/integral_rest.h"
-#include "statics/resting_mechanism.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 
@@ -60,8 +60,8 @@ Status not_found(const RestingMechanism& mechanism, const std::string& why) {
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.
 bool is_still(const Eigen::VectorXd& a, double stiffest) {
-  constexpr double kStill = 1e-10, kRounding = 1e-14;  // [per s^2], relative
-  return a.cwiseAbs().maxCoeff() <= kStill + kRounding * stiffest;
+  constexpr double kSlow = 1e-10, kRounding = 1e-14;  // [per s^2], relative
+  return a.cwiseAbs().maxCoeff() <= kSlow + kRounding * stiffest;
 }
 
 /// Creeps to the equilibrium. @param longest the square of the longest time that a step stands for.
@@ -121,9 +121,10 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
         rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
   if (!found.status.ok()) return found;
-  found.linear =
-      linear_model({&system, parameters, question, true, mechanism.integral_of_controllers()},
-                   mechanism.state(), mechanism.theta());
+  found.state = mechanism.state();
+  found.integrals = mechanism.integral_of_controllers();
+  found.linear = linear_model({&system, parameters, question, true, found.integrals},
+                              mechanism.state(), mechanism.theta());
   found.status = found.linear.status;
   return found;
 }
