@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "linear/integral_rest.h"
+#include "linear/linear_coordinates.h"
 #include "linear/resting_mechanism.h"
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -51,11 +52,13 @@ Eigen::VectorXd step_in(double c, const FreeMotions& free, const Eigen::VectorXd
 }
 
 Status not_found(const RestingMechanism& mechanism, const std::string& why) {
+  const Eigen::VectorXd a = mechanism.acceleration();
+  int fastest = 0;
+  const double largest = a.cwiseAbs().maxCoeff(&fastest);
   return {StatusCode::kNoEquilibrium, 0.0,
           "no posture at rest was found near the start: " + why +
-              "; there the largest acceleration "
-              "of a coordinate is " +
-              readable(mechanism.acceleration().cwiseAbs().maxCoeff(), 3) + " per s^2"};
+              "; there the largest acceleration of a coordinate is " + readable(largest, 3) +
+              " per s^2, of " + linear_state_names(mechanism.system(), {fastest}).front()};
 }
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.

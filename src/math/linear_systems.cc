@@ -52,6 +52,28 @@ MatrixXd rounded(const MatrixXd& A) {
   return changed;
 }
 
+/// Sets the left eigenvectors. Where eigenvalues meet in one vector there are none, and vectors of
+/// both sides are those of the matrix as rounding changes it: the common subspace hardly moves.
+void set_left(const MatrixXd& balanced, const Eigen::VectorXd& scale, Eigen::MatrixXcd vectors,
+              SystemEigen* eigen) {
+  constexpr double kOneVector = 1e9;  // of vectors of unit length, beyond what rounding splits
+  Eigen::MatrixXcd inverse = vectors.inverse();
+  if (!(inverse.norm() < kOneVector)) {
+    const Eigen::EigenSolver<MatrixXd> solver(rounded(balanced));
+    const Eigen::MatrixXcd all = solver.eigenvectors();
+    Eigen::VectorXcd left_over = solver.eigenvalues();
+    for (Index k = 0; k < vectors.cols(); ++k) {
+      Index nearest = 0;
+      (left_over.array() - eigen->values[k]).abs().minCoeff(&nearest);
+      vectors.col(k) = all.col(nearest);
+      left_over[nearest] = std::numeric_limits<double>::infinity();
+    }
+    inverse = vectors.inverse();
+    eigen->vectors = scale.asDiagonal() * vectors;
+  }
+  eigen->left = scale.cwiseInverse().asDiagonal() * inverse.transpose();
+}
+
 }  // namespace
 
 SystemEigen system_eigen(const MatrixXd& A) {
@@ -61,8 +83,7 @@ SystemEigen system_eigen(const MatrixXd& A) {
   const Eigen::VectorXd scale = balance(&balanced);
   const Eigen::EigenSolver<MatrixXd> solver(balanced);
   SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}, {}};
-  eigen.left = scale.cwiseInverse().asDiagonal() *
-               Eigen::MatrixXcd(solver.eigenvectors()).inverse().transpose();
+  set_left(balanced, scale, solver.eigenvectors(), &eigen);
   const Eigen::VectorXcd moved =
       Eigen::EigenSolver<MatrixXd>(rounded(balanced), false).eigenvalues();
   eigen.uncertainty.resize(A.rows());

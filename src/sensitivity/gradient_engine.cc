@@ -7,7 +7,7 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "integration/event_names.h"
-#include "linear/linear_numbers.h"
+#include "linear/rest_numbers.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
@@ -92,7 +92,7 @@ class Evaluator::Implementation {
   Status linearize(const std::vector<double>& parameters, Derivatives derivatives,
                    const std::atomic<bool>* cancel, Evaluation* evaluation) {
     if (!needs_linearization(system_->study())) return {};
-    if (!linear_) linear_ = std::make_unique<LinearNumbers>(*system_);
+    if (!linear_) linear_ = std::make_unique<RestNumbers>(*system_);
     const bool with_gradient = derivatives != Derivatives::kNone;
     const Status status = linear_->evaluate(parameters, with_gradient, cancel);
     if (!needs_run(system_->study())) {
@@ -118,7 +118,7 @@ class Evaluator::Implementation {
     std::size_t next = 0;
     for (std::size_t k = 0; k < study.watched.size(); ++k) {
       if (!study.watched[k].linear) continue;
-      const LinearNumbers::Entry& numbers = linear_->entries()[next++];
+      const RestNumbers::Entry& numbers = linear_->entries()[next++];
       const WatchLayout::Entry& entry = watched_.entries()[k];
       extremes->values.segment(entry.first, numbers.values.size()) = numbers.values;
       extremes->times.segment(entry.first, entry.size()).setZero();
@@ -196,7 +196,7 @@ class Evaluator::Implementation {
   std::shared_ptr<const CompiledSystem> system_;
   WatchLayout watched_;
   std::vector<double> parameters_;  // workspace: all named parameters of one design
-  std::unique_ptr<LinearNumbers> linear_;
+  std::unique_ptr<RestNumbers> linear_;
   // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends
   // on which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;

@@ -7,7 +7,7 @@
 
 #include "equations/compiled_system.h"
 #include "integration/watch_layout.h"
-#include "linear/linear_numbers.h"
+#include "linear/rest_numbers.h"
 #include "math/arrays.h"
 #include "math/differences.h"
 #include "sensitivity/complex_steps.h"
@@ -39,11 +39,11 @@ class LinearLine {
     std::vector<Eigen::VectorXd>& all = values_[step];
     if (!status_.ok()) return all;
     status_ = numbers_.evaluate(moved(study_, parameters_, direction_, step), false, cancel_);
-    for (const LinearNumbers::Entry& entry : numbers_.entries()) all.push_back(entry.values);
+    for (const RestNumbers::Entry& entry : numbers_.entries()) all.push_back(entry.values);
     return all;
   }
 
-  LinearNumbers numbers_;
+  RestNumbers numbers_;
   const MotionStudy& study_;
   const std::vector<double>& parameters_;
   const Eigen::VectorXd direction_;

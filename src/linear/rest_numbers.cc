@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "linear/linear_numbers.h"
+#include "linear/rest_numbers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +41,8 @@ Status for_each_measure(const Study& study, const Visit& visit) {
 
 }  // namespace
 
-Status LinearNumbers::set_poles(const LinearMeasure& measure, const Equilibrium& rest,
-                                Entry* entry) const {
+Status RestNumbers::set_poles(const LinearMeasure& measure, const Equilibrium& rest,
+                              Entry* entry) const {
   const double duration = system_.whole_study().duration;
   const std::vector<PoleCluster> places = ranked(poles_of(rest.linear), measure.kind, duration);
   if (places.empty())
@@ -52,8 +52,8 @@ Status LinearNumbers::set_poles(const LinearMeasure& measure, const Equilibrium&
   return {};
 }
 
-Status LinearNumbers::set_margin(const LinearMeasure& measure, const Equilibrium& rest,
-                                 Entry* entry) const {
+Status RestNumbers::set_margin(const LinearMeasure& measure, const Equilibrium& rest,
+                               Entry* entry) const {
   const std::string of = "the loop of controller \"" + measure.controller + "\" ";
   const ControllerLoop* const loop = loop_of(rest.linear, measure.controller);
   if (!loop->why_not.empty())
@@ -72,7 +72,7 @@ Status LinearNumbers::set_margin(const LinearMeasure& measure, const Equilibrium
 }
 
 /// The derivatives have the structure of a design: an integral without gain is no state.
-Status LinearNumbers::prepare(const std::vector<double>& parameters, const Equilibrium& rest) {
+Status RestNumbers::prepare(const std::vector<double>& parameters, const Equilibrium& rest) {
   const Study& study = system_.whole_study();
   std::vector<bool> without_gain;
   for (const ControllerDescription& controller : study.controllers) {
@@ -95,8 +95,8 @@ Status LinearNumbers::prepare(const std::vector<double>& parameters, const Equil
 }
 
 /// Refuses a derivative that is none, and a number that moves with what nothing determines.
-Status LinearNumbers::check(const WatchedSignal& watched, const Entry& entry, double change,
-                            std::size_t direction) const {
+Status RestNumbers::check(const WatchedSignal& watched, const Entry& entry, double change,
+                          std::size_t direction) const {
   constexpr double kRounding = 1e-6;
   const std::string of = watched.element + ", " + watched.signal.text + ", ";
   const bool by_parameter = direction < derivatives_->parameters();
@@ -112,7 +112,7 @@ Status LinearNumbers::check(const WatchedSignal& watched, const Entry& entry, do
           of + "depends on a position, or a reaction, that nothing determines at rest"};
 }
 
-Status LinearNumbers::differentiate_along(std::size_t direction, const Equilibrium& rest) {
+Status RestNumbers::differentiate_along(std::size_t direction, const Equilibrium& rest) {
   constexpr double kPer = 1.0 / LinearDerivatives::kStep;
   const Study& study = system_.whole_study();
   const double period = derivatives_->period();
@@ -144,8 +144,8 @@ Status LinearNumbers::differentiate_along(std::size_t direction, const Equilibri
   });
 }
 
-Status LinearNumbers::evaluate(const std::vector<double>& parameters, bool with_gradient,
-                               const std::atomic<bool>* cancel) {
+Status RestNumbers::evaluate(const std::vector<double>& parameters, bool with_gradient,
+                             const std::atomic<bool>* cancel) {
   const Study& study = system_.whole_study();
   LinearQuestion question;
   entries_.clear();

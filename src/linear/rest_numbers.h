@@ -14,10 +14,10 @@ namespace codesign {
 /// The numbers of a study's linearization about the equilibrium near its start, theory (70), with
 /// derivatives by the tuned parameters: of each watched signal that is a LinearMeasure, as many as
 /// LinearMeasure::places(). Each result depends on the design alone. Not thread-safe.
-class LinearNumbers {
+class RestNumbers {
  public:
   /// @param system must outlive this.
-  explicit LinearNumbers(const CompiledSystem& system) : system_(system) {}
+  explicit RestNumbers(const CompiledSystem& system) : system_(system) {}
 
   struct Entry {
     Eigen::VectorXd values;

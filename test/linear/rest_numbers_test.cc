@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "linear/linear_numbers.h"
+#include "linear/rest_numbers.h"
 
 #include <gtest/gtest.h>
 
@@ -38,11 +38,11 @@ void expect_derivatives(const std::string& urdf, const std::string& study, doubl
                         Eigen::Index places = LinearMeasure::kPoles) {
   const Problem problem = loaded(urdf, study);
   const CompiledSystem& system = *system_of(problem);
-  LinearNumbers numbers(system);
+  RestNumbers numbers(system);
   const std::vector<double> parameters = problem.parameters();
   const Status status = numbers.evaluate(parameters, true, nullptr);
   ASSERT_TRUE(status.ok()) << status.cause;
-  const std::vector<LinearNumbers::Entry> exact = numbers.entries();
+  const std::vector<RestNumbers::Entry> exact = numbers.entries();
   ASSERT_FALSE(exact.empty());
   const std::vector<int>& tuned = system.study().tuned;
   for (std::size_t entry = 0; entry < exact.size(); ++entry)
@@ -66,15 +66,15 @@ void expect_derivatives(const std::string& urdf, const std::string& study, doubl
       }
 }
 
-TEST(LinearNumbers, OfACartByClosedForms) {
+TEST(RestNumbers, OfACartByClosedForms) {
   // s^2 + d s + p of a cart of 1 kg: p = 4, d = 1.
   const Problem problem =
       loaded(carts(1, {""}), tuned({{"p", 4.0}, {"d", 1.0}}) +
                                  controlled(cart_servo("gains: {p: \"${p}\", d: \"${d}\"}")) +
                                  bounds("servo0", {"bandwidth"}));
-  LinearNumbers numbers(*system_of(problem));
+  RestNumbers numbers(*system_of(problem));
   ASSERT_TRUE(numbers.evaluate(problem.parameters(), true, nullptr).ok());
-  const LinearNumbers::Entry growth = numbers.entries()[0], damping = numbers.entries()[1];
+  const RestNumbers::Entry growth = numbers.entries()[0], damping = numbers.entries()[1];
   EXPECT_NEAR(growth.values[0], -0.5, 1e-12);
   EXPECT_NEAR(growth.values[1], -0.5, 1e-12) << "a pair counts twice";
   EXPECT_NEAR(growth.gradients(0, 0), 0.0, 1e-12);
@@ -84,7 +84,7 @@ TEST(LinearNumbers, OfACartByClosedForms) {
   EXPECT_NEAR(damping.gradients(1, 0), 0.25, 1e-12);
 }
 
-TEST(LinearNumbers, OfALoopWithAnIntegralAndALag) {
+TEST(RestNumbers, OfALoopWithAnIntegralAndALag) {
   expect_derivatives(
       carts(1, {damped(1.0)}),
       tuned({{"p", 6.0}, {"i", 2.0}, {"d", 3.0}, {"tau", 0.05}}) +
@@ -103,7 +103,7 @@ const char* const kPendulum =
 <dynamics damping="0.1"/></joint></robot>)";
 
 // The droop of the arm below its set-point moves with everything.
-TEST(LinearNumbers, ThroughThePostureAtRest) {
+TEST(RestNumbers, ThroughThePostureAtRest) {
   expect_derivatives(
       kPendulum,
       tuned({{"p", 30.0}, {"top", 1.0}}) + "  l: {}\n  d: {initial: 2.0}\n" +
@@ -116,7 +116,7 @@ TEST(LinearNumbers, ThroughThePostureAtRest) {
 }
 
 // The rod's loop turns the free direction of the coordinates, and an integral holds the slider.
-TEST(LinearNumbers, OfAClosedLoopOfBodies) {
+TEST(RestNumbers, OfAClosedLoopOfBodies) {
   expect_derivatives(
       planar_slider_crank(),
       tuned({{"at", 0.33}, {"p", 300.0}, {"i", 200.0}, {"d", 20.0}}) +
@@ -133,7 +133,7 @@ const std::vector<std::string> kSampledMeasures{"gain_margin",  "phase_margin",
                                                 "sensitivity",  "complementary_sensitivity"};
 const std::string kSampledPoles = std::string(kOfPoles) + "  - {poles: radius, at_most: 2}\n";
 
-TEST(LinearNumbers, OfASampledLoopWithFilterDelayAndLag) {
+TEST(RestNumbers, OfASampledLoopWithFilterDelayAndLag) {
   expect_derivatives(
       carts(1, {damped(1.0)}),
       tuned({{"p", 6.0}, {"i", 2.0}, {"d", 3.0}, {"tau", 0.05}, {"filter", 0.03}}) +
@@ -145,7 +145,7 @@ TEST(LinearNumbers, OfASampledLoopWithFilterDelayAndLag) {
 }
 
 // The posture moves, the derivative is that of the measurement alone.
-TEST(LinearNumbers, OfASampledServoThroughThePosture) {
+TEST(RestNumbers, OfASampledServoThroughThePosture) {
   expect_derivatives(
       kPendulum,
       tuned({{"p", 30.0}, {"top", 1.0}}) + "  l: {}\n  d: {initial: 2.0}\n" +
@@ -157,7 +157,7 @@ TEST(LinearNumbers, OfASampledServoThroughThePosture) {
 }
 
 // A cascade whose inner loop samples more often, and laws that are no PID.
-TEST(LinearNumbers, OfSampledCascadesAndOtherLaws) {
+TEST(RestNumbers, OfSampledCascadesAndOtherLaws) {
   expect_derivatives(
       carts(1, {damped(1.0)}),
       tuned({{"Kv", 3.0}, {"Kp", 8.0}}) +
@@ -180,10 +180,10 @@ TEST(LinearNumbers, OfSampledCascadesAndOtherLaws) {
         1e-7, 2);
 }
 
-TEST(LinearNumbers, TellWhatThereIsNot) {
+TEST(RestNumbers, TellWhatThereIsNot) {
   const auto told = [](const std::string& urdf, const std::string& study) {
     const Problem problem = loaded(urdf, study);
-    LinearNumbers numbers(*system_of(problem));
+    RestNumbers numbers(*system_of(problem));
     return numbers.evaluate(problem.parameters(), true, nullptr);
   };
   const auto servo = [](const std::string& gains) {
