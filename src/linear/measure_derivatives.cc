@@ -15,6 +15,9 @@ namespace {
 using ComplexNumber = std::complex<double>;
 using Kind = LinearMeasure::Kind;
 
+// Poles that meet in one motion, whose vectors are then parallel, have no derivatives; those of
+// machines alike that move apart have.
+constexpr double kOneMotion = 1e4;
 constexpr double kTurn = 6.283185307179586;  // [rad]
 
 /// The transfer function H of a closed loop at a frequency: value, derivatives along the direction
@@ -175,6 +178,10 @@ double derivative_of(const PoleCluster& cluster, const std::vector<Pole>& poles,
   ComplexNumber moves = 0.0;
   for (const std::size_t member : cluster.members) {
     const Pole& pole = poles[member];
+    const bool meets = cluster.members.size() > 1 || std::abs(pole.value.imag()) < pole.uncertainty;
+    if (meets && (pole.is_pair || cluster.members.size() > 1) &&
+        !(pole.left.norm() * pole.vector.norm() < kOneMotion))
+      return std::numeric_limits<double>::quiet_NaN();
     const ComplexNumber of_eigenvalue =
         product(pole.left.transpose(),
                 product(Eigen::MatrixXcd(change.cast<ComplexNumber>()), pole.vector))(0, 0);

@@ -11,8 +11,7 @@
 
 namespace codesign {
 
-/// Poles that rounding cannot tell apart, as one with their mean, whose derivatives exist where
-/// those of each pole do not; theory (70c).
+/// Poles that rounding cannot tell apart, as one with their mean; theory (70c).
 struct PoleCluster {
   std::complex<double> value;        ///< s [1/s]
   std::vector<std::size_t> members;  ///< places in the list of poles
@@ -25,7 +24,7 @@ std::vector<PoleCluster> ranked(const std::vector<Pole>& poles, LinearMeasure::K
                                 double duration);
 /// Its number.
 double value_of(const PoleCluster& cluster, LinearMeasure::Kind kind, double period);
-/// The derivative of its number. @param change of A.
+/// The derivative of its number; NaN where poles meet in one motion. @param change of A.
 double derivative_of(const PoleCluster& cluster, const std::vector<Pole>& poles,
                      LinearMeasure::Kind kind, double period, const Eigen::MatrixXd& change);
 
