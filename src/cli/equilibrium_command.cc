@@ -9,8 +9,8 @@
 #include "jobs/json_records.h"
 #include "jobs/linear_records.h"
 #include "jobs/run_recorder.h"
+#include "linear/equilibrium.h"
 #include "problem/load_problem.h"
-#include "statics/equilibrium.h"
 #include "text/number_text.h"
 #include "text/table.h"
 

@@ -175,6 +175,12 @@ struct MotionStudy {
 /// Whether the objective has a term: an integral, a terminal one or a peak.
 bool has_objective(const MotionStudy& study);
 
+/// Whether some of it is a number of a run, or none of it is: only what is linearized at rest,
+/// theory (70), needs no run.
+bool needs_run(const MotionStudy& study);
+/// Whether some watched signal is a number of the linearization at rest.
+bool needs_linearization(const MotionStudy& study);
+
 /// Whether the end of a run depends on its design.
 bool has_moving_end(const MotionStudy& study);
 /// The duration of a run with these parameters [s], all named ones; the longest one with `until`.

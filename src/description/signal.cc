@@ -282,7 +282,8 @@ bool is_largest_of_many(const WatchedSignal& watched) {
 }
 
 std::string describe(const WatchedSignal& watched) {
-  if (watched.measure == WatchedSignal::Measure::kNone) return watched.signal.text;
+  if (watched.linear || watched.measure == WatchedSignal::Measure::kNone)
+    return watched.signal.text;
   return kMeasureNames[static_cast<std::size_t>(watched.measure) - 1] +
          (" of " + watched.signal.text);
 }

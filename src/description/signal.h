@@ -68,6 +68,8 @@ SignalDescription parse_condition(const std::string& text, const SourceLocation&
 inline constexpr const char* kEndTime = "end_time";
 SignalDescription end_time_signal(const SourceLocation& where);
 
+struct LinearMeasure;
+
 /// A signal whose extreme values within an interval of time count: in a constraint (`path:`,
 /// `final:`) or in the objective (`objective.peak`); theory (21a).
 struct WatchedSignal {
@@ -91,6 +93,10 @@ struct WatchedSignal {
   Role role = Role::kPath;
   Measure measure = Measure::kNone;
   SignalDescription signal;
+  /// Null, or numbers of the linearization about rest take the place of the signal's values, theory
+  /// (70): kMaximum or kMinimum of them, of kBounded and kTerm. `signal` then has a text only. In
+  /// MotionStudy::watched they stand behind all signals.
+  std::shared_ptr<const LinearMeasure> linear{};
   ReferenceDescription reference;  ///< 0 unless given
   /// of kPath, kFinal and kBounded, at least one of them; in the unit of the signal, of arrival and
   /// dwell in s

@@ -9,6 +9,7 @@
 #include "description/ensemble.h"
 #include "description/excitation.h"
 #include "description/identification.h"
+#include "description/initial_gains.h"
 #include "description/motion_study.h"
 #include "description/posture_grid.h"
 #include "mechanism_codesign/optimizer_options.h"
@@ -42,6 +43,7 @@ struct Study : MotionStudy {
   std::optional<ExcitationDescription> excitation;
   /// Whether the study says how the model's base stands, `base`.
   bool base_is_given = false;
+  std::vector<InitialGains> initial_gains;
   PostureGrid grid;                     ///< `efforts.grid`; empty without it
   std::vector<HardwareGains> hardware;  ///< in the order written
 };

@@ -69,6 +69,16 @@ bool has_objective(const MotionStudy& study) {
          std::any_of(study.watched.begin(), study.watched.end(), is_term);
 }
 
+bool needs_run(const MotionStudy& study) {
+  const auto is_of_run = [](const WatchedSignal& watched) { return !watched.linear; };
+  return !study.integral.empty() || !study.terminal.empty() || study.watched.empty() ||
+         std::any_of(study.watched.begin(), study.watched.end(), is_of_run);
+}
+
+bool needs_linearization(const MotionStudy& study) {
+  return !study.watched.empty() && study.watched.back().linear;
+}
+
 bool has_range(const Parameter& p) {
   return std::isfinite(p.lower) && std::isfinite(p.upper) && p.upper > p.lower;
 }

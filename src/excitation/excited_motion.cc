@@ -6,10 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "assembly/driven_motion.h"
 #include "description/study.h"
 #include "engine/thread_engine.h"
 #include "equations/formulas.h"
-#include "identification/effort/driven_motion.h"
 #include "identification/effort/effort_tangent.h"
 #include "math/arrays.h"
 #include "text/cancel.h"

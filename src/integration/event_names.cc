@@ -42,7 +42,7 @@ class FormulaPlaces {
     look_at_loads();
     look_at_controllers();
     look_at_terms(system_.integral(), study_.integral, "objective.integral[");
-    for (std::size_t k = 0; k < study_.watched.size(); ++k) {
+    for (std::size_t k = 0; k < system_.watched().size(); ++k) {
       look(system_.watched()[k], study_.watched[k].element, "");
       look(study_.watched[k].reference, study_.watched[k].element + ".reference", "");
     }

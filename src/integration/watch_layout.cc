@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "description/linear_measure.h"
 #include "integration/step_control.h"
 
 namespace codesign {
@@ -29,6 +30,13 @@ std::vector<double> instants_of(const WatchedSignal& watched, const std::vector<
   return all;
 }
 
+/// Numbers of a linearization have places in the order of their size in place of instants.
+std::vector<double> places_of(const LinearMeasure& measure) {
+  std::vector<double> all;
+  for (int k = 0; k < measure.places(); ++k) all.push_back(k);
+  return all;
+}
+
 std::vector<double> postures_of(const WatchedSignal& watched) {
   std::vector<double> all;
   for (double number = std::ceil(watched.after); number <= watched.before; ++number)
@@ -44,8 +52,10 @@ WatchLayout::WatchLayout(const MotionStudy& study) {
   for (const WatchedSignal& watched : study.watched) {
     Entry& entry = entries_.emplace_back();
     entry.first = size_;
-    entry.is_list = study.postures > 0;
-    entry.instants = entry.is_list ? postures_of(watched) : instants_of(watched, breaks_);
+    entry.is_list = study.postures > 0 || watched.linear;
+    entry.instants = watched.linear  ? places_of(*watched.linear)
+                     : entry.is_list ? postures_of(watched)
+                                     : instants_of(watched, breaks_);
     entry.is_measured = watched.measure != WatchedSignal::Measure::kNone;
     size_ += entry.size();
   }

@@ -27,7 +27,8 @@ class WatchLayout {
     /// [s], ascending; one for the end of the study, else at least two
     std::vector<double> instants;
     bool is_measured = false;  ///< whether the last number is a measure
-    bool is_list = false;      ///< of postures, between which there are no windows
+    /// of postures, and of numbers of a linearization: there are no windows between them
+    bool is_list = false;
 
     int windows() const { return is_list ? 0 : static_cast<int>(instants.size()) - 1; }
     int at_instant(int k) const { return first + k; }

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "control/reference.h"
 #include "linear/linear_motion.h"
 #include "linear/sampled_motion.h"
 #include "math/arrays.h"
@@ -13,33 +12,6 @@
 
 namespace codesign {
 namespace {
-
-/// The study without what is judged, whose watched signals are the outputs, then the outputs of its
-/// controllers.
-Study bare_study(const LinearCase& of) {
-  Study study = of.system->whole_study();
-  study.integral.clear();
-  study.terminal.clear();
-  study.watched.clear();
-  study.until.reset();
-  for (InitialJointState& initial : study.initial_state) initial.stuck = false;
-  if (of.at_rest)
-    for (GivenMotion& motion : study.motion)
-      motion.position =
-          ReferenceDescription(Reference<double>(motion.position, of.parameters).at(0.0).value);
-  const auto watch = [&study](const SignalDescription& signal) {
-    WatchedSignal watched;
-    watched.signal = signal;
-    watched.element = "outputs[" + std::to_string(study.watched.size()) + "]";
-    watched.where = signal.where;
-    study.watched.push_back(watched);
-  };
-  for (const SignalDescription& signal : of.question.outputs) watch(signal);
-  for (const ControllerDescription& controller : study.controllers)
-    watch(parse_signal(controller.name + "/output", controller.where,
-                       "controllers." + controller.name));
-  return study;
-}
 
 /// Shares of the joints in a motion, the largest one 1; zero where they are rounding beside `size`.
 std::vector<double> scaled(const Eigen::VectorXcd& rates, double size) {
@@ -243,6 +215,27 @@ class ModelWriter {
 };
 
 }  // namespace
+
+Study bare_study(const LinearCase& of) {
+  Study study = of.system->whole_study();
+  study.integral.clear();
+  study.terminal.clear();
+  study.watched.clear();
+  study.until.reset();
+  for (InitialJointState& initial : study.initial_state) initial.stuck = false;
+  const auto watch = [&study](const SignalDescription& signal) {
+    WatchedSignal watched;
+    watched.signal = signal;
+    watched.element = "outputs[" + std::to_string(study.watched.size()) + "]";
+    watched.where = signal.where;
+    study.watched.push_back(watched);
+  };
+  for (const SignalDescription& signal : of.question.outputs) watch(signal);
+  for (const ControllerDescription& controller : study.controllers)
+    watch(parse_signal(controller.name + "/output", controller.where,
+                       "controllers." + controller.name));
+  return study;
+}
 
 LinearModel linear_model(const LinearCase& of, const State<double>& state,
                          const VectorX<double>& theta) {

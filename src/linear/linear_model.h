@@ -60,6 +60,10 @@ struct LinearModel {
   std::string verdict;
 };
 
+/// The study of a case without what is judged, whose watched signals are the outputs, then the
+/// outputs of its controllers.
+Study bare_study(const LinearCase& of);
+
 /// @param state at rest: positions; else the whole state of the system, consistent. @param theta
 /// tree coordinates of the start, Observer::observe().
 /// @throws InputError for outputs that do not exist, and as sample_pattern().

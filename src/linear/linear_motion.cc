@@ -19,11 +19,16 @@ LinearMotion::LinearMotion(const CompiledSystem& system, const LinearStudy& stud
     : system_(system), study_(study), equations_(system), lanes_(system), matrix_(system) {
   equations_.compiled().allow(false);
   lanes_.compiled().allow(false);
-  equations_.set_design(study.parameters);
+  set_design(study.parameters);
   derivatives_.resize(system.patterns());
   flow_.inputs = study.inputs;
   for (const WatchedSignal& watched : study.study.watched)
     flow_.outputs.push_back(watched.signal.text);
+}
+
+void LinearMotion::set_design(const std::vector<double>& parameters) {
+  parameters_ = parameters;
+  equations_.set_design(parameters);
 }
 
 Status LinearMotion::solve_rates() {
@@ -110,7 +115,7 @@ void LinearMotion::set_directions() {
 void LinearMotion::load_lanes(Eigen::Index first) {
   const Eigen::Index x = motions() + system_.layout().states;
   const Eigen::Index count = std::min<Eigen::Index>(kLanes, q_.cols() - first);
-  parameter_lanes_.assign(study_.parameters.begin(), study_.parameters.end());
+  parameter_lanes_.assign(parameters_.begin(), parameters_.end());
   for (Eigen::Index k = 0; k < count; ++k)
     if (first + k >= x)
       parameter_lanes_[study_.first + to_index(first + k - x)].v[static_cast<int>(k)] = 1.0;

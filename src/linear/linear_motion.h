@@ -22,6 +22,8 @@ class LinearMotion {
   /// @param system of study.study, whose watched signals are the outputs; both must outlive this.
   LinearMotion(const CompiledSystem& system, const LinearStudy& study);
 
+  /// Another design. @param parameters those of the study and its inputs.
+  void set_design(const std::vector<double>& parameters);
   /// At a state with consistent q and v; z is solved for, beginning with that of the state.
   /// Statuses: kSingularMatrix, kNonFinite.
   Status linearize(State<double> state);
@@ -61,6 +63,7 @@ class LinearMotion {
   Linearization<double> derivatives_;
   State<double> state_;
   State<Number> state_lanes_;
+  std::vector<double> parameters_;
   std::vector<Number> parameter_lanes_;
   LinearCoordinates coordinates_;
   /// One column per entry of x, then of u.

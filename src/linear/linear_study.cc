@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "linear/linear_study.h"
 
+#include <complex>
 #include <memory>
 #include <utility>
 
@@ -14,19 +15,16 @@ class InputWriter {
  public:
   InputWriter(LinearStudy* to, double t, bool at_rest) : to_(to), t_(t), at_rest_(at_rest) {}
 
-  /// A number that is an input from now on.
-  Quantity input(const std::string& name, double value) {
-    Parameter parameter;
-    parameter.name = "input_" + std::to_string(to_->inputs.size());
-    parameter.value = value;
-    const int index = static_cast<int>(to_->study.parameters.size());
-    to_->study.parameters.push_back(parameter);
-    to_->study.used_parameters.insert(index);
-    to_->parameters.push_back(value);
+  /// A number that is an input from now on. @param of the function whose value it is.
+  Quantity input(const std::string& name, double value, const ReferenceDescription& of = {}) {
     to_->inputs.push_back(name);
-    const ExpressionScope scope{[index](const std::string&) { return index; },
-                                [&parameter] { return std::vector<std::string>{parameter.name}; }};
-    return {value, std::make_shared<const Expression>(parameter.name, scope)};
+    return number(value, of);
+  }
+
+  /// A function of time that keeps its value, which is no input.
+  ReferenceDescription held(const ReferenceDescription& of) {
+    if (of.kind == ReferenceDescription::Kind::kConstant) return of;
+    return ReferenceDescription(number(Reference<double>(of, design_).at(t_).value, of));
   }
 
   /// A function whose value, rate and acceleration at the time are inputs.
@@ -35,7 +33,7 @@ class InputWriter {
     const double moves = at_rest_ ? 0.0 : 1.0;
     ReferenceDescription moving;
     moving.kind = ReferenceDescription::Kind::kWaypoints;
-    const Quantity value = input(name, now.value);
+    const Quantity value = input(name, now.value, of);
     moving.waypoints.times = {t_, t_ + 1.0};
     moving.waypoints.positions = {value, value};
     moving.waypoints.velocities = {input(name + "_rate", moves * now.rate), 0.0};
@@ -48,6 +46,20 @@ class InputWriter {
   void set_design(const std::vector<double>& design) { design_ = design; }
 
  private:
+  Quantity number(double value, const ReferenceDescription& of) {
+    Parameter parameter;
+    parameter.name = "input_" + std::to_string(to_->functions.size());
+    parameter.value = value;
+    const int index = static_cast<int>(to_->study.parameters.size());
+    to_->study.parameters.push_back(parameter);
+    to_->study.used_parameters.insert(index);
+    to_->parameters.push_back(value);
+    to_->functions.push_back(of);
+    const ExpressionScope scope{[index](const std::string&) { return index; },
+                                [&parameter] { return std::vector<std::string>{parameter.name}; }};
+    return {value, std::make_shared<const Expression>(parameter.name, scope)};
+  }
+
   LinearStudy* to_;
   double t_;
   bool at_rest_;
@@ -61,7 +73,8 @@ void add_inputs(std::size_t c, InputWriter* writer, LinearStudy* to) {
   for (std::size_t k = 0; k < controller.feedback.size(); ++k)
     controller.feedback[k].reference = ReferenceDescription(
         writer->input(controller.name + "/reference[" + std::to_string(k) + "]",
-                      writer->constant(controller.feedback[k].reference).constant.nominal()));
+                      writer->constant(controller.feedback[k].reference).constant.nominal(),
+                      controller.feedback[k].reference));
   to->disturbances.push_back(-1);
   if (controller.output.empty()) return;
   to->disturbances.back() = static_cast<int>(to->inputs.size());
@@ -109,7 +122,7 @@ void remove_coefficients(FrictionDescription* friction) {
 
 LinearStudy with_inputs(Study study, const std::vector<double>& parameters, double t,
                         bool at_rest) {
-  LinearStudy result{std::move(study), parameters, parameters.size(), {}, {}};
+  LinearStudy result{std::move(study), parameters, parameters.size(), {}, {}, {}, t};
   Study& of = result.study;
   InputWriter writer(&result, t, at_rest);
   writer.set_design(parameters);
@@ -118,13 +131,29 @@ LinearStudy with_inputs(Study study, const std::vector<double>& parameters, doub
     ControllerDescription& controller = of.controllers[c];
     controller.realization.quantization = 0.0;
     if (controller.i.at(parameters) == 0.0) controller.i = Quantity(0.0);
-    if (controller.kind->input == ControlInput::kFeedback)
-      controller.feedforward = writer.constant(controller.feedforward);
     add_inputs(c, &writer, &result);
   }
   for (std::size_t k = 0; k < loads; ++k) add_load(k, &writer, &result);
+  for (std::size_t c = 0; c < controllers; ++c)
+    if (of.controllers[c].kind->input == ControlInput::kFeedback)
+      of.controllers[c].feedforward = writer.held(of.controllers[c].feedforward);
+  if (at_rest)
+    for (GivenMotion& motion : of.motion) motion.position = writer.held(motion.position);
   return result;
 }
+
+template <class T>
+std::vector<T> LinearStudy::parameters_at(std::vector<T> design) const {
+  std::vector<T> values;
+  for (const ReferenceDescription& function : functions)
+    values.push_back(Reference<T>(function, design).at(time).value);
+  design.insert(design.end(), values.begin(), values.end());
+  return design;
+}
+template std::vector<double> LinearStudy::parameters_at(std::vector<double>) const;
+template std::vector<std::complex<double>> LinearStudy::parameters_at(
+    std::vector<std::complex<double>>) const;
+template std::vector<Lanes<8>> LinearStudy::parameters_at(std::vector<Lanes<8>>) const;
 
 RobotDescription without_friction(RobotDescription robot) {
   for (ContactDescription& contact : robot.contacts)

@@ -21,11 +21,19 @@ constexpr std::array<const char*, 2> kLinearFrictionNames{"off", "regularised"};
 /// A study whose inputs are parameters: what a user may vary about a state, theory (67).
 struct LinearStudy {
   Study study;
-  std::vector<double> parameters;  ///< of the study, then one per input, at the state
-  std::size_t first = 0;           ///< index in `parameters` of the first input
+  /// of the study, then one per input, then functions of time that are no inputs; at the state
+  std::vector<double> parameters;
+  std::size_t first = 0;  ///< index in `parameters` of the first input
   std::vector<std::string> inputs;
   /// per controller: index in `inputs` of the effort beside its output; -1: it drives no joint
   std::vector<int> disturbances;
+  /// of the parameters from `first` on: the function of time whose value at `time` they are
+  std::vector<ReferenceDescription> functions;
+  double time = 0.0;  ///< [s]
+
+  /// The parameters at another design, at rest. @param design those before `first`.
+  template <class T>
+  std::vector<T> parameters_at(std::vector<T> design) const;
 };
 
 /// The inputs are `CONTROLLER/setpoint`, with its rate and acceleration where the law reads them,

@@ -210,9 +210,8 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   if (period_ == 0.0 && std::abs(1.0 + far) > margins->sensitivity->value)
     margins->sensitivity = AtFrequency{std::abs(1.0 + far), grid_.back()};
   // A motion that the loop does not see, such as the position of a speed loop, is a pole at w = 0.
-  const double still = complementary(0.0);
-  const double level =
-      std::sqrt(0.5) * (std::isfinite(still) ? still : complementary(kBesideRest * grid_.front()));
+  margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
+  const double level = std::sqrt(0.5) * complementary(margins->rest);
   if (!std::isfinite(level) || level == 0.0) return;
   for (std::size_t k = 0; k < grid_.size(); ++k) {
     if (complementary(grid_[k]) >= level) continue;

@@ -32,6 +32,9 @@ struct LoopMargins {
   std::optional<AtFrequency> bandwidth;
   std::optional<AtFrequency> sensitivity;    ///< Ms, the largest |1/(1 + L)|
   std::optional<AtFrequency> complementary;  ///< Mt, the largest |L/(1 + L)|
+  /// [rad/s] at which T is what it is at rest, for the bandwidth: 0, or a frequency far below all
+  /// poles if T is not finite there
+  double rest = 0.0;
 };
 
 /// The loop of a controller as a transfer function.

@@ -19,7 +19,7 @@ constexpr int kDigits = 6;
 /// The rate of a motion whose change over a period is known.
 Pole pole_of_period(std::complex<double> z, double uncertainty, double period) {
   const std::complex<double> s = std::log(z) / period;
-  return {s, uncertainty / (std::abs(z) * period), {}};
+  return {s, uncertainty / (std::abs(z) * period), false, {}, {}};
 }
 
 }  // namespace
@@ -54,12 +54,14 @@ std::vector<Pole> poles_of(const StateSpace& system) {
     const std::complex<double> value = eigen.values[k];
     const double uncertainty = eigen.uncertainty[k];
     if (value.imag() < 0.0) continue;
-    Pole pole{value, uncertainty, {}};
+    Pole pole{value, uncertainty, false, {}, {}};
     if (system.period > 0.0) {
       if (std::abs(value) <= std::max(10.0 * uncertainty, 1e-14)) continue;
       pole = pole_of_period(value, uncertainty, system.period);
     }
+    pole.is_pair = value.imag() > 0.0;
     pole.vector = eigen.vectors.col(k);
+    pole.left = eigen.left.col(k);
     poles.push_back(pole);
   }
   std::stable_sort(poles.begin(), poles.end(), [](const Pole& one, const Pole& other) {

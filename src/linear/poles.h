@@ -21,7 +21,9 @@ const char* name_of(Stability stability);
 struct Pole {
   std::complex<double> value;  ///< s [1/s], Im s >= 0
   double uncertainty = 0.0;    ///< by rounding [1/s]
+  bool is_pair = false;        ///< whether its conjugate is a pole, too
   Eigen::VectorXcd vector;     ///< of the states
+  Eigen::VectorXcd left;       ///< SystemEigen::left
 
   double growth() const { return value.real(); }  ///< Re s [1/s]; negative: it decays
   double frequency() const;                       ///< Im s/(2 pi) [Hz]

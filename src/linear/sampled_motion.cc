@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
+#include "linear/period_map.h"
 #include "math/arrays.h"
-#include "math/dense.h"
-#include "math/linear_systems.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -27,11 +25,6 @@ int common_samples(const std::vector<double>& times, double longest) {
       return count;
   }
   return 0;
-}
-
-/// A multiple of the queue's length, above every number of a sample that still waits.
-std::int64_t first_sample(const ControlRealization& realization) {
-  return 2 * static_cast<std::int64_t>(std::max(1, realization.queued()));
 }
 
 class PatternWriter {
@@ -78,98 +71,11 @@ void add_events(int controller, const ControlRealization& realization, int sampl
   }
 }
 
-/// The map of [x | u | w] over one period, w only where a loop is opened.
-class PeriodMap {
- public:
-  PeriodMap(LinearMotion* motion, const SamplePattern& pattern, int opened)
-      : motion_(*motion), pattern_(pattern), opened_(opened) {
-    const StateSpace& flow = motion_.flow();
-    states_ = flow.A.rows();
-    inputs_ = flow.B.cols();
-    total_ = states_ + inputs_ + (opened >= 0 ? 1 : 0);
-    map_ = Eigen::MatrixXd::Identity(total_, total_);
-    rate_ = Eigen::MatrixXd::Zero(total_, total_);
-    rate_.topLeftCorner(states_, states_) = flow.A;
-    rate_.block(0, states_, states_, inputs_) = flow.B;
-    output_.setZero(total_);
-  }
-
-  void run() {
-    for (std::size_t k = 0; k < pattern_.instants.size(); ++k) {
-      cross(pattern_.instants[k].events);
-      const bool is_last = k + 1 == pattern_.instants.size();
-      const double end = is_last ? pattern_.period : pattern_.instants[k + 1].time;
-      flow(end - pattern_.instants[k].time);
-    }
-    renumber_queues();
-  }
-  Eigen::MatrixXd columns(Eigen::Index first, Eigen::Index count) const {
-    return map_.block(0, first, states_, count);
-  }
-  Eigen::RowVectorXd output() const { return output_.head(states_); }
-  Eigen::Index states() const { return states_; }
-  Eigen::Index inputs() const { return inputs_; }
-
- private:
-  void apply(const std::vector<ControlEvent>& events) {
-    if (events.empty()) return;
-    const Eigen::MatrixXd after = motion_.jump(events);
-    Eigen::MatrixXd jump = Eigen::MatrixXd::Identity(total_, total_);
-    jump.block(motion_.motions(), 0, after.rows(), after.cols()) = after;
-    map_ = product(jump, map_);
-  }
-
-  int place_of(const ControlEvent& event) const {
-    const auto c = to_index(event.controller);
-    const ControllerStates& states = motion_.system().controllers()[c].states;
-    const int queued = motion_.system().study().controllers[c].realization.queued();
-    return queued == 0 ? states.held : states.queue + static_cast<int>(event.sample % queued);
-  }
-
-  void cross(const std::vector<ControlEvent>& events) {
-    std::vector<ControlEvent> waiting;
-    for (const ControlEvent& event : events) {
-      waiting.push_back(event);
-      if (event.controller != opened_ || event.kind != ControlEvent::Kind::kSample) continue;
-      apply(waiting);
-      waiting.clear();
-      const Eigen::Index place = motion_.motions() + place_of(event);
-      output_ = map_.row(place);
-      map_(place, total_ - 1) += 1.0;
-    }
-    apply(waiting);
-  }
-
-  void flow(double time) {
-    if (!(time > 0.0)) return;
-    const auto known = flows_.find(time);
-    if (known == flows_.end()) flows_[time] = matrix_exponential(rate_ * time);
-    map_ = product(flows_[time], map_);
-  }
-
-  // Sample k writes to place k mod the length; the next period begins with another place.
-  void renumber_queues() {
-    const System& system = motion_.system();
-    for (std::size_t c = 0; c < system.controllers().size(); ++c) {
-      const int queued = system.study().controllers[c].realization.queued();
-      if (queued == 0) continue;
-      const Eigen::Index first = motion_.motions() + system.controllers()[c].states.queue;
-      const Eigen::MatrixXd places = map_.middleRows(first, queued);
-      for (int k = 0; k < queued; ++k)
-        map_.row(first + k) = places.row((k + pattern_.samples[c]) % queued);
-    }
-  }
-
-  LinearMotion& motion_;
-  const SamplePattern& pattern_;
-  const int opened_;
-  Eigen::Index states_ = 0, inputs_ = 0, total_ = 0;
-  Eigen::MatrixXd map_, rate_;
-  Eigen::RowVectorXd output_;
-  std::map<double, Eigen::MatrixXd> flows_;
-};
-
 }  // namespace
+
+std::int64_t first_sample(const ControlRealization& realization) {
+  return 2 * static_cast<std::int64_t>(std::max(1, realization.queued()));
+}
 
 SamplePattern sample_pattern(const MotionStudy& study) {
   SamplePattern pattern;
@@ -203,24 +109,41 @@ SamplePattern sample_pattern(const MotionStudy& study) {
   return pattern;
 }
 
+namespace {
+
+PeriodMap<double> period_map(LinearMotion* motion, const SamplePattern& pattern, int opened) {
+  const StateSpace& flow = motion->flow();
+  return {flow.A,
+          flow.B,
+          motion->system(),
+          motion->motions(),
+          pattern,
+          opened,
+          [motion](const std::vector<ControlEvent>& events) { return motion->jump(events); }};
+}
+
+}  // namespace
+
 StateSpace sampled_motion(LinearMotion* motion, const SamplePattern& pattern) {
-  PeriodMap map(motion, pattern, -1);
-  map.run();
+  const PeriodMap<double> map = period_map(motion, pattern, -1);
   StateSpace result = motion->flow();
   result.period = pattern.period;
-  result.A = map.columns(0, map.states());
-  result.B = map.columns(map.states(), map.inputs());
+  result.A = map.by_states();
+  result.B = map.by_inputs();
   return result;
 }
 
 StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int controller) {
-  PeriodMap map(motion, pattern, controller);
-  map.run();
+  const PeriodMap<double> map = period_map(motion, pattern, controller);
   const std::string& name = motion->system().study().controllers[to_index(controller)].name;
-  return {
-      pattern.period,     motion->flow().states,        {name + "/disturbance"},
-      {name + "/output"}, map.columns(0, map.states()), map.columns(map.states() + map.inputs(), 1),
-      map.output(),       Eigen::MatrixXd::Zero(1, 1)};
+  return {pattern.period,
+          motion->flow().states,
+          {name + "/disturbance"},
+          {name + "/output"},
+          map.by_states(),
+          map.by_opened(),
+          map.output(),
+          Eigen::MatrixXd::Zero(1, 1)};
 }
 
 }  // namespace codesign

@@ -21,6 +21,10 @@ struct SamplePattern {
   std::vector<int> samples;  ///< per controller: its samples in a period; 0: continuous
 };
 
+/// The number of a sample long after the start, a multiple of the queue's length, above every
+/// number of a sample that still waits.
+std::int64_t first_sample(const ControlRealization& realization);
+
 /// The pattern long after the start, when delayed outputs are in effect.
 /// @throws InputError for sample times whose common period has more than 10000 samples of one.
 SamplePattern sample_pattern(const MotionStudy& study);

@@ -52,6 +52,28 @@ MatrixXd rounded(const MatrixXd& A) {
   return changed;
 }
 
+/// Sets the left eigenvectors. Where eigenvalues meet in one vector there are none, and vectors of
+/// both sides are those of the matrix as rounding changes it: the common subspace hardly moves.
+void set_left(const MatrixXd& balanced, const Eigen::VectorXd& scale, Eigen::MatrixXcd vectors,
+              SystemEigen* eigen) {
+  constexpr double kOneVector = 1e9;  // of vectors of unit length, beyond what rounding splits
+  Eigen::MatrixXcd inverse = vectors.inverse();
+  if (!(inverse.norm() < kOneVector)) {
+    const Eigen::EigenSolver<MatrixXd> solver(rounded(balanced));
+    const Eigen::MatrixXcd all = solver.eigenvectors();
+    Eigen::VectorXcd left_over = solver.eigenvalues();
+    for (Index k = 0; k < vectors.cols(); ++k) {
+      Index nearest = 0;
+      (left_over.array() - eigen->values[k]).abs().minCoeff(&nearest);
+      vectors.col(k) = all.col(nearest);
+      left_over[nearest] = std::numeric_limits<double>::infinity();
+    }
+    inverse = vectors.inverse();
+    eigen->vectors = scale.asDiagonal() * vectors;
+  }
+  eigen->left = scale.cwiseInverse().asDiagonal() * inverse.transpose();
+}
+
 }  // namespace
 
 SystemEigen system_eigen(const MatrixXd& A) {
@@ -60,7 +82,8 @@ SystemEigen system_eigen(const MatrixXd& A) {
   MatrixXd balanced = A;
   const Eigen::VectorXd scale = balance(&balanced);
   const Eigen::EigenSolver<MatrixXd> solver(balanced);
-  SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}};
+  SystemEigen eigen{solver.eigenvalues(), scale.asDiagonal() * solver.eigenvectors(), {}, {}};
+  set_left(balanced, scale, solver.eigenvectors(), &eigen);
   const Eigen::VectorXcd moved =
       Eigen::EigenSolver<MatrixXd>(rounded(balanced), false).eigenvalues();
   eigen.uncertainty.resize(A.rows());
@@ -76,6 +99,20 @@ MatrixXd matrix_exponential(const MatrixXd& A) {
   const MatrixXd result = balanced.exp();
   return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
 }
+
+Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A) {
+  MatrixXd balanced = A.real();
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::MatrixXcd similar = scale.cwiseInverse().asDiagonal() * A * scale.asDiagonal();
+  const Eigen::MatrixXcd result = similar.exp();
+  return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
+}
+
+Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b) {
+  return A.partialPivLu().solve(b);
+}
+
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A * B; }
 
 TransferFunction::TransferFunction(const MatrixXd& A, const Eigen::VectorXd& b,
                                    const Eigen::RowVectorXd& c, double d)

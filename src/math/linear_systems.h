@@ -13,6 +13,9 @@ namespace codesign {
 struct SystemEigen {
   Eigen::VectorXcd values;
   Eigen::MatrixXcd vectors;
+  /// Left eigenvectors l (columns), l^T A = value l^T, with l^T r = 1 for the right one r of the
+  /// same place; large or not finite where eigenvalues meet in one vector.
+  Eigen::MatrixXcd left;
   /// How far each eigenvalue moves when every row of the balanced matrix changes by the rounding
   /// of its largest entry: far for double ones, which a small change splits.
   Eigen::VectorXd uncertainty;
@@ -24,6 +27,12 @@ SystemEigen system_eigen(const Eigen::MatrixXd& A);
 /// exp(A), after the same balancing by Eigen: Pade's approximation with scaling and squaring
 /// (Higham 2005).
 Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& A);
+/// The same of numbers with derivatives as imaginary parts, a complex step.
+Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A);
+
+/// The solutions of A x = b, one per column, by LU with partial pivoting; A b.
+Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
+Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
 
 /// The transfer function c (s I - A)^-1 b + d of one input and one output. A value takes n^2
 /// operations, by Hessenberg's form.

@@ -9,6 +9,8 @@
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
+#include "linear/initial_gains.h"
+#include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism/motor_sides.h"
 #include "problem/load_problem.h"
@@ -118,6 +120,35 @@ FileLoader keeping(const FileLoader& files, std::vector<LoadedFile>* loaded) {
   };
 }
 
+/// Begins gains by lqr and by poles where they are those of the present start, unless a saved
+/// design or settings have given them.
+void start_gains(const RobotDescription& robot, const SavedDesign& design,
+                 const ParameterSettings& settings, Study* study) {
+  const auto is_given = [&](const std::string& name) {
+    const auto is_it = [&name](const auto& setting) { return setting.first == name; };
+    return std::any_of(settings.begin(), settings.end(), is_it) ||
+           std::any_of(design.values.begin(), design.values.end(), is_it);
+  };
+  for (const InitialGains& of : study->initial_gains) {
+    if (std::all_of(of.parameters.begin(), of.parameters.end(), [&](int parameter) {
+          return is_given(study->parameters[to_index(parameter)].name);
+        }))
+      continue;
+    const std::vector<double> gains = find_initial_gains(robot, *study, of);
+    for (std::size_t k = 0; k < gains.size(); ++k) {
+      Parameter& parameter = study->parameters[to_index(of.parameters[k])];
+      if (is_given(parameter.name)) continue;
+      if (gains[k] < parameter.lower || gains[k] > parameter.upper)
+        throw InputError({of.where,
+                          "controllers." + study->controllers[of.controller].name + ".gains",
+                          "the start of " + parameter.name + " lies outside its bounds",
+                          to_decimal(gains[k]), range_of(parameter)});
+      parameter.value = gains[k];
+    }
+  }
+  study->initial_gains.clear();
+}
+
 /// Compiles the equations of motion of a model and a study with design and settings applied, and
 /// completes `contents`: system, warnings, time.
 Problem compile(const RobotDescription& robot, Study study, const SavedDesign& design,
@@ -125,6 +156,7 @@ Problem compile(const RobotDescription& robot, Study study, const SavedDesign& d
   if (!design.file.empty()) apply_design(design, &study, &contents.warnings);
   apply_settings(settings, &study);
   const CpuTimer timer;
+  start_gains(robot, design, settings, &study);
   require_numbers_at_start(study, start_parameters(study));
   require_ordered_bounds(study);
   for (const WatchedSignal& watched : study.watched)

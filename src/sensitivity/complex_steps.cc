@@ -85,7 +85,7 @@ void replay_watched(const CompiledSystem& system, const TakenRun& taken, const E
   const WatchLayout layout(system.study());
   State<Complex> state;
   Complex psi;
-  for (std::size_t k = 0; k < layout.entries().size(); ++k)
+  for (std::size_t k = 0; k < system.watched().size(); ++k)
     for (int place = layout.entries()[k].first; place < layout.entries()[k].measure(); ++place) {
       const double time = taken.extremes.times[place];
       if (h > 0.0 ? !(time > from && time <= to) : time > 0.0) continue;
@@ -105,6 +105,7 @@ void replay_measures(const MotionStudy& study, const Extremes& extremes, Replaye
   const WatchLayout layout(study);
   for (std::size_t k = 0; k < study.watched.size(); ++k) {
     const WatchedSignal& watched = study.watched[k];
+    if (watched.linear) continue;
     const WatchLayout::Entry& entry = layout.entries()[k];
     const RangePlaces range = find_range(entry, extremes.values);
     const bool minimum = watched.measure == WatchedSignal::Measure::kMinimum;

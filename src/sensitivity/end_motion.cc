@@ -48,7 +48,7 @@ void EndMotion::add_change(const std::complex<double>& time, const Eigen::Vector
   if (!moves()) return;
   *objective += time * objective_rate_;
   const WatchLayout layout(system_->study());
-  for (std::size_t k = 0; k < layout.entries().size(); ++k) {
+  for (std::size_t k = 0; k < system_->watched().size(); ++k) {
     const WatchLayout::Entry& entry = layout.entries()[k];
     const std::complex<double> change = time * watched_rate(k, equations);
     for (int place = entry.first; place < entry.measure(); ++place)

@@ -14,6 +14,7 @@
 #include "mechanism_codesign/gradient.h"
 #include "problem/load_problem.h"
 #include "sensitivity/complex_steps.h"
+#include "sensitivity/linear_check.h"
 #include "sensitivity/run_steps.h"
 #include "text/cancel.h"
 
@@ -72,6 +73,22 @@ void check_by_differences(const CompiledSystem& system, const std::vector<double
   }
 }
 
+/// The reference along directions: a complex step through the steps of the run, and differences of
+/// what is linearized.
+Status differentiate(const CompiledSystem& system, const std::vector<double>& parameters,
+                     const Eigen::MatrixXd& given, const std::atomic<bool>* cancel,
+                     Eigen::VectorXd* objective, Eigen::VectorXd* error, Eigen::MatrixXd* watched) {
+  const Eigen::MatrixXd directions = directions_of(system, given);
+  objective->setZero(directions.cols());
+  error->setZero(directions.cols());
+  if (needs_run(system.study()))
+    if (Status status = differentiate_steps(system, parameters, Derivatives::kGradient, directions,
+                                            cancel, objective, watched);
+        !status.ok())
+      return status;
+  return add_linear_differences(system, parameters, directions, cancel, objective, error, watched);
+}
+
 }  // namespace
 
 bool can_replay(const MotionStudy& study) {
@@ -89,8 +106,8 @@ Status differentiate_finer_steps(const CompiledSystem& system,
   study.solver.maximum_steps *= 10;
   const CompiledSystem finer(system.robot(), study, system.sharing());
   Eigen::MatrixXd watched;
-  return differentiate_steps(finer, parameters, Derivatives::kGradient,
-                             directions_of(finer, directions), cancel, derivatives, &watched);
+  Eigen::VectorXd error;
+  return differentiate(finer, parameters, directions, cancel, derivatives, &error, &watched);
 }
 
 GradientCheck check_gradient(const Problem& problem, const Eigen::VectorXd& rho, CheckMethod method,
@@ -177,9 +194,8 @@ GradientCheck check_design(const std::shared_ptr<const CompiledSystem>& system,
   check.status = check.evaluation.status;
   if (!check.status.ok()) return check;
   if (check.method == CheckMethod::kComplexStep) {
-    check.status = differentiate_steps(*system, parameters, Derivatives::kGradient,
-                                       directions_of(*system, directions), cancel, &check.reference,
-                                       &check.extreme_reference);
+    check.status = differentiate(*system, parameters, directions, cancel, &check.reference,
+                                 &check.reference_error, &check.extreme_reference);
   } else {
     check_by_differences(*system, parameters, cancel, &check);
   }

@@ -7,6 +7,7 @@
 #include "description/tuned_parameters.h"
 #include "equations/compiled_system.h"
 #include "integration/event_names.h"
+#include "linear/rest_numbers.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/gradient.h"
@@ -64,7 +65,14 @@ class Evaluator::Implementation {
     }
     const CpuTimer timer;
     engine->obey(cancel);
-    evaluation.status = run(engine.get(), parameters, derivatives, cancel);
+    evaluation.status = linearize(parameters, derivatives, cancel, &evaluation);
+    if (!needs_run(system_->study())) {
+      if (evaluation.status.ok()) add_terms(derivatives, &evaluation);
+      evaluation.statistics.cpu_seconds = timer.seconds();
+      return evaluation;
+    }
+    if (evaluation.status.ok())
+      evaluation.status = run(engine.get(), parameters, derivatives, cancel);
     if (evaluation.status.ok()) collect(engine.get(), derivatives, cancel, &evaluation);
     evaluation.statistics = engine->statistics();
     evaluation.warnings = engine->warnings();
@@ -79,11 +87,61 @@ class Evaluator::Implementation {
   }
 
  private:
+  /// Finds the numbers of a study that are those of its linearization at rest, theory (70). What
+  /// has no value must not cost a run.
+  Status linearize(const std::vector<double>& parameters, Derivatives derivatives,
+                   const std::atomic<bool>* cancel, Evaluation* evaluation) {
+    if (!needs_linearization(system_->study())) return {};
+    if (!linear_) linear_ = std::make_unique<RestNumbers>(*system_);
+    const bool with_gradient = derivatives != Derivatives::kNone;
+    const Status status = linear_->evaluate(parameters, with_gradient, cancel);
+    if (!needs_run(system_->study())) {
+      const auto tuned = to_signed(system_->study().tuned.size());
+      evaluation->objective = 0.0;
+      if (with_gradient) evaluation->gradient.setZero(tuned);
+      if (derivatives == Derivatives::kGaussNewton) evaluation->jacobian_root.setZero(tuned, tuned);
+    }
+    return status;
+  }
+
+  /// Puts them into the places that WatchLayout gives them.
+  void place_numbers(bool with_gradient, Extremes* extremes) const {
+    if (!linear_) return;
+    const MotionStudy& study = system_->study();
+    const Eigen::Index size = watched_.size();
+    if (extremes->values.size() != size) {
+      extremes->values.setZero(size);
+      extremes->times.setZero(size);
+    }
+    if (with_gradient && extremes->gradients.cols() != size)
+      extremes->gradients.setZero(to_signed(study.tuned.size()), size);
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < study.watched.size(); ++k) {
+      if (!study.watched[k].linear) continue;
+      const RestNumbers::Entry& numbers = linear_->entries()[next++];
+      const WatchLayout::Entry& entry = watched_.entries()[k];
+      extremes->values.segment(entry.first, numbers.values.size()) = numbers.values;
+      extremes->times.segment(entry.first, entry.size()).setZero();
+      if (with_gradient)
+        extremes->gradients.middleCols(entry.first, numbers.values.size()) = numbers.gradients;
+      set_measure(study.watched[k], entry, extremes);
+    }
+  }
+
+  /// The terms of the objective that are watched signals.
+  void add_terms(Derivatives derivatives, Evaluation* evaluation) const {
+    const bool with_gradient = derivatives != Derivatives::kNone;
+    place_numbers(with_gradient, &evaluation->extremes);
+    evaluation->objective += watched_terms(system_->study(), watched_, evaluation->extremes,
+                                           with_gradient ? &evaluation->gradient : nullptr);
+  }
+
   void collect(GradientEngine* engine, Derivatives derivatives, const std::atomic<bool>* cancel,
                Evaluation* evaluation) const {
     const double time = engine->time();
     evaluation->objective = engine->objective();
     evaluation->extremes = engine->extremes();
+    place_numbers(derivatives != Derivatives::kNone, &evaluation->extremes);
     evaluation->objective +=
         watched_terms(system_->study(), watched_, evaluation->extremes, nullptr);
     if (!std::isfinite(evaluation->objective)) {
@@ -138,6 +196,7 @@ class Evaluator::Implementation {
   std::shared_ptr<const CompiledSystem> system_;
   WatchLayout watched_;
   std::vector<double> parameters_;  // workspace: all named parameters of one design
+  std::unique_ptr<RestNumbers> linear_;
   // Made by the first evaluation. That for kGaussNewton may be of another kind; no result depends
   // on which evaluations came before.
   std::unique_ptr<GradientEngine> engine_, root_engine_;

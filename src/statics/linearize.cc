@@ -4,7 +4,7 @@
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
 #include "integration/integrator.h"
-#include "statics/equilibrium.h"
+#include "linear/equilibrium.h"
 #include "text/number_text.h"
 
 namespace codesign {

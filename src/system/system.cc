@@ -181,7 +181,7 @@ void System::resolve_objective() {
   resolve(study().integral, &integral_);
   resolve(study().terminal, &terminal_);
   for (const WatchedSignal& watched : study().watched)
-    watched_.push_back(resolve_named(watched.signal));
+    if (!watched.linear) watched_.push_back(resolve_named(watched.signal));
   if (study().until) until_ = resolve_named(*study().until);
 }
 

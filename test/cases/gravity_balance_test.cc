@@ -1,9 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "cases/shipped.h"
 #include "description/study.h"
+#include "linear/equilibrium.h"
 #include "mechanism_codesign/optimization.h"
 #include "problem/load_problem.h"
-#include "statics/equilibrium.h"
 #include "statics/posture_efforts.h"
 
 namespace codesign {

@@ -5,8 +5,8 @@
 #include <complex>
 #include <vector>
 
+#include "assembly/driven_motion.h"
 #include "equations/compiled_system.h"
-#include "identification/effort/driven_motion.h"
 #include "math/arrays.h"
 
 namespace codesign {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "assembly/driven_motion.h"
 #include "description/study.h"
 #include "mechanism_codesign/error.h"
 #include "mechanism_codesign/status.h"
@@ -22,19 +23,6 @@ struct MeasuredJoint {
   /// theory (28a)
   double deviation = 1.0;
   SourceLocation where;  ///< where the joint is named, for messages
-};
-
-/// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine
-/// the motion are driven, those whose motion the study gives among them. Each drive adds a
-/// constraint row whose multiplier is minus the effort. The study of the system has neither
-/// controllers nor given motions nor an objective.
-struct DrivenSystem {
-  std::shared_ptr<const CompiledSystem> system;
-  /// the driven joints as indices in the list of measured joints, ascending; drive k has row
-  /// System::drive_row(k)
-  std::vector<int> drives;
-  /// the surplus joints, likewise as indices: their motion follows from the motion of the drives
-  std::vector<int> surplus;
 };
 
 /// @param of the mechanism as make_system() compiled it; its redundant reactions are shared as in

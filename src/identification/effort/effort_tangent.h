@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "identification/effort/driven_motion.h"
+#include "assembly/driven_motion.h"
 #include "sensitivity/lane_directions.h"
 #include "sensitivity/tangent_equations.h"
 

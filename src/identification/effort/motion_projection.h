@@ -4,8 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "assembly/driven_motion.h"
 #include "equations/compiled_system.h"
-#include "identification/effort/driven_motion.h"
+#include "identification/effort/driven_system.h"
 #include "observation/observer.h"
 
 namespace codesign {

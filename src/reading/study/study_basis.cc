@@ -37,16 +37,17 @@ std::vector<double> read_starts(const YamlValue& coefficients, std::size_t count
   return starts;
 }
 
-void declare(const std::string& controller, const YamlValue& coefficients, Study* study) {
-  coefficients.require_keys({"count"}, {"initial", "lower", "upper", "tune"});
-  const std::size_t count = read_count(coefficients);
-  const std::vector<double> starts = read_starts(coefficients, count);
+}  // namespace
+
+void declare_numbers(const YamlValue& coefficients, const std::string& prefix,
+                     const std::vector<double>& starts, Study* study) {
+  const std::size_t count = starts.size();
   const auto tune = coefficients.find("tune");
   std::unordered_set<std::string> taken;
   for (const Parameter& parameter : study->parameters) taken.insert(parameter.name);
   for (std::size_t k = 0; k < count; ++k) {
     Parameter parameter;
-    parameter.name = coefficient_name(controller, k);
+    parameter.name = prefix + std::to_string(k);
     parameter.value = starts[k];
     parameter.where = coefficients.where();
     const std::string fault = identifier_fault(parameter.name);
@@ -61,6 +62,14 @@ void declare(const std::string& controller, const YamlValue& coefficients, Study
       study->tuned.push_back(static_cast<int>(study->parameters.size()));
     study->parameters.push_back(parameter);
   }
+}
+
+namespace {
+
+void declare(const std::string& controller, const YamlValue& coefficients, Study* study) {
+  coefficients.require_keys({"count"}, {"initial", "lower", "upper", "tune"});
+  const std::vector<double> starts = read_starts(coefficients, read_count(coefficients));
+  declare_numbers(coefficients, controller + "_c", starts, study);
 }
 
 bool asks_for_parameters(const YamlValue& controller) {

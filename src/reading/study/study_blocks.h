@@ -36,6 +36,17 @@ void read_fitted(const YamlValue& value, double lower, FittedNumber* number);
 /// @throws InputError
 void declare_coefficients(const YamlValue& study_value, Study* study);
 
+/// Appends parameters with the names PREFIX0, PREFIX1, ... and the keys lower, upper and tune of
+/// `value`. @throws InputError for a name that is none or is taken.
+void declare_numbers(const YamlValue& value, const std::string& prefix,
+                     const std::vector<double>& starts, Study* study);
+/// Appends the parameters of `gains: {from: lqr, weights}` and `gains: {from: poles, poles}` of
+/// state feedbacks, NAME_k0, ..., and what they start from. @throws InputError
+void declare_gains(const YamlValue& study_value, Study* study);
+/// The gain of signal `k` of such a controller; nothing if `controller` has other gains.
+std::optional<Quantity> initial_gain(const std::string& controller, std::size_t k,
+                                     const ParameterTable& table, const Study& study);
+
 /// Reads the keys of one basis controller, after declare_coefficients(). @param table of
 /// Study::parameters.
 /// @throws InputError
@@ -45,6 +56,13 @@ BasisDescription read_basis(const std::string& controller, const YamlValue& valu
 /// The key, `peak` or a measure, by which an item of `constraints:` bounds a signal and not
 /// parameters; read_watched() reads such items. Null for others.
 const char* bounded_measure(const YamlValue& item);
+
+/// Whether an item of `constraints:` bounds a number of a linearization; read_linear() reads it.
+bool is_linear_item(const YamlValue& item);
+/// Appends the terms `objective.loop`, `objective.poles` and the bounds of `constraints:` on them
+/// to Study::watched, of which they are the last. @throws InputError for a controller that is none
+/// or drives no joint, and in a study with postures.
+void read_linear(const YamlValue& study_value, const ParameterTable& table, Study* study);
 
 /// Reads the constraints among parameters in the list `constraints:`, each `left >= right`, `left
 /// <= right` or

@@ -79,8 +79,8 @@ void read_with_own_position(const YamlValue& value, const Context& context,
 
 void read_state_feedback(const YamlValue& value, const Context& context,
                          ControllerDescription* controller) {
-  value.require_keys(
-      {"type"}, with_realization_keys(controller->kind, {"output", "feedback", "feedforward"}));
+  value.require_keys({"type"}, with_realization_keys(controller->kind, {"output", "feedback",
+                                                                        "feedforward", "gains"}));
   if (const auto feedforward = value.find("feedforward"))
     controller->feedforward = read_reference(*feedforward, context.table, context.loader);
   const auto feedback = value.find("feedback");
@@ -89,10 +89,15 @@ void read_state_feedback(const YamlValue& value, const Context& context,
     value.fail("the controller does nothing",
                "feedback: at least one {signal, gain, reference}; or feedforward");
   for (const YamlValue& item : terms) {
-    item.require_keys({"signal", "gain"}, {"reference", "filter"});
+    const std::optional<Quantity> found =
+        initial_gain(controller->name, controller->feedback.size(), context.table, context.study);
+    if (found)
+      item.require_keys({"signal"}, {"reference", "filter"});
+    else
+      item.require_keys({"signal", "gain"}, {"reference", "filter"});
     FeedbackTerm term;
     term.signal = read_signal(item.at("signal"), context);
-    term.gain = read_quantity(item.at("gain"), context.table);
+    term.gain = found ? *found : read_quantity(item.at("gain"), context.table);
     if (const auto reference = item.find("reference"))
       term.reference = read_reference(*reference, context.table, context.loader);
     if (const auto filter = item.find("filter"))

@@ -150,7 +150,7 @@ void read_constraints(const YamlValue& study_value, Study* study) {
   if (!constraints) return;
   const ParameterTable table(study->parameters);
   for (const YamlValue& item : constraints->items()) {
-    if (bounded_measure(item)) continue;
+    if (bounded_measure(item) || is_linear_item(item)) continue;
     if (item.is_list() || (item.is_map() && !item.find("expression")))
       item.fail("not a constraint", kFormsOfConstraints);
     if (item.is_map())

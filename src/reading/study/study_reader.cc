@@ -34,7 +34,10 @@ std::array<double, 3> read_gravity(const YamlValue& value) {
 
 /// The adjoint cannot compute the derivatives of extreme values.
 void refuse_adjoint(const YamlValue& root, const Study& study) {
-  if (study.solver.gradient != GradientMethod::kAdjoint || study.watched.empty()) return;
+  if (study.solver.gradient != GradientMethod::kAdjoint ||
+      std::all_of(study.watched.begin(), study.watched.end(),
+                  [](const WatchedSignal& watched) { return watched.linear != nullptr; }))
+    return;
   root.at("solver")
       .at("gradient")
       .fail(
@@ -63,6 +66,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
   read_parameters(root, robot, &study);
   declare_coefficients(root, &study);
+  declare_gains(root, &study);
   constexpr std::size_t kMostTuned = 10000;
   if (study.tuned.size() > kMostTuned) {
     const YamlValue at = root.find("parameters").value_or(root);

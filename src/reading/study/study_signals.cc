@@ -88,7 +88,7 @@ void read_objective(const YamlValue& study_value, const RobotDescription& robot,
   const auto objective = study_value.find("objective");
   if (!objective) return;
   objective->require_keys({}, {"integral", "sum", "terminal", "peak", "stroke", "maximum",
-                               "minimum", "arrival", "dwell"});
+                               "minimum", "arrival", "dwell", "loop", "poles"});
   const bool has_postures = study->postures > 0;
   if (const auto other = objective->find(has_postures ? "integral" : "sum"))
     other->fail(has_postures ? "postures have no integral" : "a motion has no postures",
@@ -299,6 +299,7 @@ void read_watched(const YamlValue& study_value, const RobotDescription& robot,
           every);
   }
   study->watched = std::move(watched);
+  read_linear(study_value, table, study);
 }
 
 }  // namespace codesign

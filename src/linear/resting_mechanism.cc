@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/resting_mechanism.h"
+#include "linear/resting_mechanism.h"
 
 #include "assembly/assembly.h"
 #include "control/reference.h"
@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfRows = 1e-8;  // as rounding leaves of rows that depend on each other
+constexpr double kRankOfLoops = 1e-8;  // as rounding leaves of rows that depend on each other
 
 /// The function at t = 0, for ever.
 ReferenceDescription held(const ReferenceDescription& function,
@@ -122,7 +122,7 @@ Status RestingMechanism::linearize(Eigen::MatrixXd* N) {
   if (Status status = motion_.linearize(state_); !status.ok()) return status;
   motion_.equations().linearize(state_, &derivatives_);
   *N = orthogonal_complement(constraint_rows(*system_.system, derivatives_).transpose(),
-                             kRankOfRows);
+                             kRankOfLoops);
   return {};
 }
 

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <vector>
 
-#include "statics/resting_mechanism.h"
+#include "linear/resting_mechanism.h"
 
 namespace codesign {
 

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "assembly/driven_motion.h"
 #include "equations/compiled_system.h"
-#include "identification/effort/driven_motion.h"
 #include "mechanism_codesign/status.h"
 #include "observation/observer.h"
 

@@ -1,5 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "identification/effort/driven_motion.h"
+#include "assembly/driven_motion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,10 @@ class CompiledSystem;
 struct Equilibrium {
   Status status;
   FrameNames names;
-  Frame frame;         ///< at rest; after a failure the last posture that was tried
-  LinearModel linear;  ///< small motions about it, with all that is counted
+  Frame frame;                    ///< at rest; after a failure the last posture that was tried
+  LinearModel linear;             ///< small motions about it, with all that is counted
+  State<double> state;            ///< at rest; q and turns count
+  std::vector<double> integrals;  ///< the state of each controller's integral
   int steps = 0;
 };
 

@@ -1,11 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/integral_rest.h"
+#include "linear/integral_rest.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "control/controller.h"
 #include "description/study.h"
+#include "linear/scaled_solution.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "text/cancel.h"
@@ -17,22 +18,7 @@ namespace {
 constexpr int kMostCorrections = 200;
 constexpr double kLongestCorrection = 0.2;  // of any coordinate [rad or m]
 constexpr double kSmallCorrection = 1e-12;  // relative
-constexpr double kStill = 1e-9;             // of accelerations and errors, relative to their terms
-constexpr double kRank = 1e-10;             // of rows and columns that are scaled to 1
-
-/// The solution of least norm after scaling rows and columns: coordinates and integrals have units
-/// of their own.
-Eigen::VectorXd scaled_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right) {
-  const auto inverse = [](double size) { return size > 0.0 ? 1.0 / size : 1.0; };
-  Eigen::MatrixXd scaled = matrix;
-  const Eigen::VectorXd rows = matrix.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse);
-  scaled = rows.asDiagonal() * scaled;
-  const Eigen::VectorXd columns =
-      scaled.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse);
-  scaled = scaled * columns.asDiagonal();
-  const Eigen::VectorXd scaled_right = rows.cwiseProduct(right);
-  return columns.cwiseProduct(LeastNorm(scaled, kRank).solve(scaled_right).col(0));
-}
+constexpr double kBalanced = 1e-9;          // of accelerations and errors, relative to their terms
 
 Status not_found(const RestingMechanism& mechanism) {
   const Eigen::VectorXd errors = mechanism.errors(), a = mechanism.acceleration();
@@ -71,7 +57,7 @@ struct Balance {
     Eigen::VectorXd sizes = Eigen::VectorXd::Ones(matrix.cols());
     sizes.tail(integrals.size()) += integrals.cwiseAbs();
     const Eigen::VectorXd terms = matrix.cwiseAbs() * sizes;
-    return (rows.cwiseAbs().array() <= kStill * (1.0 + terms.array())).all();
+    return (rows.cwiseAbs().array() <= kBalanced * (1.0 + terms.array())).all();
   }
 };
 
@@ -109,7 +95,7 @@ Status rest_without_error(RestingMechanism* mechanism, const std::vector<double>
   for (int step = 0; step < kMostCorrections; ++step, ++*steps) {
     if (is_set(cancel)) return {StatusCode::kCancelled, 0.0, "cancelled"};
     if (Status status = find_balance(mechanism, &balance); !status.ok()) return status;
-    const Eigen::VectorXd full = scaled_solution(balance.matrix, -balance.rows);
+    const Eigen::VectorXd full = ScaledSolution(balance.matrix).solve(-balance.rows);
     if (!std::isfinite(full.sum())) break;
     const Eigen::Index own = mechanism->integrals().size();
     const Eigen::VectorXd move = product(balance.N, full.head(full.size() - own));

@@ -1,16 +1,30 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "equations/compiled_system.h"
 #include "equations/equations.h"
 #include "equations/iteration_matrix.h"
 #include "equations/turn_follower.h"
-#include "identification/effort/driven_system.h"
 #include "math/arrays.h"
+#include "mechanism_codesign/status.h"
 
 namespace codesign {
+
+/// A mechanism whose motion is prescribed, doc/theory.md (28): the measured joints that determine
+/// the motion are driven, those whose motion the study gives among them. Each drive adds a
+/// constraint row whose multiplier is minus the effort. The study of the system has neither
+/// controllers nor given motions nor an objective.
+struct DrivenSystem {
+  std::shared_ptr<const CompiledSystem> system;
+  /// the driven joints as indices in the list of measured joints, ascending; drive k has row
+  /// System::drive_row(k)
+  std::vector<int> drives;
+  /// the surplus joints, likewise as indices: their motion follows from the motion of the drives
+  std::vector<int> surplus;
+};
 
 /// The motion of the drives at one instant, in the order of DrivenSystem::drives.
 struct DriveMotion {

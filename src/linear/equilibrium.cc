@@ -1,14 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include "statics/equilibrium.h"
+#include "linear/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "linear/integral_rest.h"
+#include "linear/linear_coordinates.h"
+#include "linear/resting_mechanism.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "observation/observer.h"
-#include "statics/integral_rest.h"
-#include "statics/resting_mechanism.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 
@@ -51,17 +52,19 @@ Eigen::VectorXd step_in(double c, const FreeMotions& free, const Eigen::VectorXd
 }
 
 Status not_found(const RestingMechanism& mechanism, const std::string& why) {
+  const Eigen::VectorXd a = mechanism.acceleration();
+  int fastest = 0;
+  const double largest = a.cwiseAbs().maxCoeff(&fastest);
   return {StatusCode::kNoEquilibrium, 0.0,
           "no posture at rest was found near the start: " + why +
-              "; there the largest acceleration "
-              "of a coordinate is " +
-              readable(mechanism.acceleration().cwiseAbs().maxCoeff(), 3) + " per s^2"};
+              "; there the largest acceleration of a coordinate is " + readable(largest, 3) +
+              " per s^2, of " + linear_state_names(mechanism.system(), {fastest}).front()};
 }
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.
 bool is_still(const Eigen::VectorXd& a, double stiffest) {
-  constexpr double kStill = 1e-10, kRounding = 1e-14;  // [per s^2], relative
-  return a.cwiseAbs().maxCoeff() <= kStill + kRounding * stiffest;
+  constexpr double kSlow = 1e-10, kRounding = 1e-14;  // [per s^2], relative
+  return a.cwiseAbs().maxCoeff() <= kSlow + kRounding * stiffest;
 }
 
 /// Creeps to the equilibrium. @param longest the square of the longest time that a step stands for.
@@ -121,9 +124,10 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
         rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
   if (!found.status.ok()) return found;
-  found.linear =
-      linear_model({&system, parameters, question, true, mechanism.integral_of_controllers()},
-                   mechanism.state(), mechanism.theta());
+  found.state = mechanism.state();
+  found.integrals = mechanism.integral_of_controllers();
+  found.linear = linear_model({&system, parameters, question, true, found.integrals},
+                              mechanism.state(), mechanism.theta());
   found.status = found.linear.status;
   return found;
 }
