@@ -215,10 +215,17 @@ bool RosenbrockIntegrator::is_stable(double h) {
   return false;
 }
 
-// Infinite where a step that was cut at a guard cannot be computed.
+double RosenbrockIntegrator::own_error() const {
+  return std::max(step_.error(options_.relative_tolerance, options_.absolute_tolerance),
+                  step_.psi_error(options_.relative_tolerance, options_.absolute_tolerance));
+}
+
+// Infinite where a step that was cut at a guard cannot be computed. The cut one is another step:
+// the longer one may have had all stages beyond what it went through.
 double RosenbrockIntegrator::further_error(const BeforeAccept& before_accept) {
   if (!mode_watch_.cut(&step_)) return std::numeric_limits<double>::infinity();
-  const double error = expression_watch_.error(options_, &step_, &assembly_);
+  const double of_cut = mode_watch_.guard() >= 0 ? own_error() : 0.0,
+               error = std::max(of_cut, expression_watch_.error(options_, &step_, &assembly_));
   return error <= 1.0 && before_accept ? std::max(error, before_accept(&step_)) : error;
 }
 
@@ -274,9 +281,7 @@ Status RosenbrockIntegrator::advance(double limit, const BeforeAccept& before_ac
       continue;
     }
     const double kept = proposal_;
-    double error =
-        std::max(step_.error(options_.relative_tolerance, options_.absolute_tolerance),
-                 step_.psi_error(options_.relative_tolerance, options_.absolute_tolerance));
+    double error = own_error();
     if (error <= 1.0 && !is_stable(h)) continue;
     if (error <= 1.0) error = std::max(error, further_error(before_accept));
     if (!controller_.accept(h, error, &proposal_)) {

@@ -88,6 +88,8 @@ class RosenbrockIntegrator final : public Integrator {
   Status look_for_end(const State<double>& behind);
   /// The events of sampled controllers.
   Status sample();
+  /// The scaled error of the motion and of the objective in the last attempt.
+  double own_error() const;
   /// Of an attempt that passes the error test of the motion: cuts it where the mode changes, and
   /// returns the scaled error of what else takes part.
   double further_error(const BeforeAccept& before_accept);
