@@ -44,6 +44,13 @@ Bounds<T> bounds_at(const ControlBounds& bounds, const std::vector<T>& parameter
 std::vector<const std::vector<FilterDescription>*> filters_of(
     const ControllerDescription& description);
 
+/// ControllerConstants::tracking at `parameters`.
+template <class T>
+T tracking_at(const ControllerDescription& of, const std::vector<T>& parameters) {
+  const std::optional<Quantity>& time = of.realization.tracking_time;
+  return time ? T(time->at(parameters) * of.i.at(parameters)) : T(of.p.at(parameters));
+}
+
 /// Evaluates a description at `parameters`, all named parameters. The description must outlive the
 /// result.
 /// @param result new, or of the same description at other parameters; overwritten, its memory is
@@ -69,8 +76,7 @@ void controller_constants(const ControllerDescription& description,
     c.derivative_filter = realization.derivative_filter->at(parameters);
   if (realization.output_limit) c.output_limit = bounds_at(*realization.output_limit, parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
-  c.tracking =
-      realization.tracking_time ? realization.tracking_time->at(parameters) * c.pid.i : c.pid.p;
+  c.tracking = tracking_at(description, parameters);
   const auto filters = filters_of(description);
   c.filters.resize(filters.size());
   for (std::size_t k = 0; k < filters.size(); ++k) {

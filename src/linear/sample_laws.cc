@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "control/controller.h"
 #include "control/sampled_pid.h"
 #include "elements/sampled_control.h"
 #include "linear/linear_coordinates.h"
@@ -27,6 +28,7 @@ struct SampleNumber {
   SampleNumber(Complex value, Row derivatives) : a(value), by(std::move(derivatives)) {}
   static SampleNumber variable(Complex value, int place) { return {value, Row::Unit(place)}; }
   SampleNumber& operator+=(const SampleNumber& y) { return *this = {a + y.a, by + y.by}; }
+  SampleNumber& operator-=(const SampleNumber& y) { return *this = {a - y.a, by - y.by}; }
   friend SampleNumber operator-(const SampleNumber& x) { return {-x.a, -x.by}; }
   friend SampleNumber operator+(const SampleNumber& x, const SampleNumber& y) {
     return {x.a + y.a, x.by + y.by};
@@ -42,6 +44,10 @@ struct SampleNumber {
   }
   friend double value_of(const SampleNumber& x) { return x.a.real(); }
 };
+
+Bounds<SampleNumber> numbers_of(const Bounds<Complex>& bounds) {
+  return {bounds.lower, bounds.upper, bounds.is_symmetric};
+}
 
 /// A study in which one controller is continuous, its law the only watched signal: of a PID its
 /// error.
@@ -120,6 +126,10 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
   const ControllerDescription& description = study_.study.controllers[c];
   const ControlRealization& realization = description.realization;
   const Controller& controller = system_.controllers()[c];
+  const std::vector<Complex>& design = motion.parameters;
+  Bounds<SampleNumber> clamped, limit;
+  if (realization.i_clamp) clamped = numbers_of(bounds_at(*realization.i_clamp, design));
+  if (realization.output_limit) limit = numbers_of(bounds_at(*realization.output_limit, design));
   Complex value;
   const Eigen::RowVectorXcd own = row_of(event.controller, motion, &value);
   // The law reads what earlier events of the instant have written.
@@ -132,9 +142,6 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
   const std::array<int, 3> places{controller.state, controller.states.last,
                                   controller.states.filter};
   if (controller.kind->is_pid) {
-    const auto number = [&](const Quantity& quantity) {
-      return SampleNumber(quantity.at(motion.parameters));
-    };
     const SampleNumber error = output;
     SampleNumber rated = SampleNumber::variable(value, 1);
     variables.row(1) = law;
@@ -144,13 +151,14 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
       memory[k] = SampleNumber::variable(motion.state.s[places[k]], static_cast<int>(k) + 2);
       variables.row(to_signed(k) + 2) = s->row(places[k]);
     }
-    const SampleNumber clamped = realization.i_clamp ? number(*realization.i_clamp) : 0.0;
     const SampledPidNumbers<SampleNumber> numbers{
-        {number(description.p), number(description.i), number(description.d)},
+        {description.p.at(design), description.i.at(design), description.d.at(design)},
         realization.sample_time,
-        realization.derivative_filter ? number(*realization.derivative_filter) : 0.0,
+        realization.derivative_filter ? realization.derivative_filter->at(design) : Complex(0.0),
         realization.i_clamp ? &clamped : nullptr,
-        realization.antiwindup};
+        realization.antiwindup,
+        realization.output_limit ? &limit : nullptr,
+        tracking_at(description, design)};
     if (realization.rates_input) rated.a = memory[1].a;
     SampledPidMemory<SampleNumber> kept{memory[0], memory[1], memory[2]};
     output = sample_pid(numbers, error, rated, false, &kept);
@@ -159,8 +167,7 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
     for (std::size_t k = 0; k < places.size(); ++k)
       if (places[k] >= 0) s->row(places[k]) = product(behind[k]->by, variables);
   }
-  if (realization.output_limit)
-    output = clamp(output, SampleNumber(realization.output_limit->at(motion.parameters)));
+  if (realization.output_limit) output = clamp(output, limit);
   s->row(output_state(system_, event)) = product(output.by, variables);
 }
 
