@@ -6,7 +6,7 @@
 namespace codesign {
 namespace {
 
-using Kind = ControlEvent::Kind;
+using EventKind = ControlEvent::Kind;
 
 MotionStudy sampled(const std::vector<std::pair<double, double>>& times) {
   MotionStudy study;
@@ -40,9 +40,9 @@ TEST(SamplePattern, SeveralSampleTimesMeetAgain) {
 TEST(SamplePattern, DelayedOutputsOfEarlierSamples) {
   const SamplePattern pattern = sample_pattern(sampled({{0.1, 0.25}}));
   ASSERT_EQ(pattern.instants.size(), 2U);
-  EXPECT_EQ(pattern.instants[0].events[0].kind, Kind::kSample);
+  EXPECT_EQ(pattern.instants[0].events[0].kind, EventKind::kSample);
   EXPECT_NEAR(pattern.instants[1].time, 0.05, 1e-12);
-  EXPECT_EQ(pattern.instants[1].events[0].kind, Kind::kApply);
+  EXPECT_EQ(pattern.instants[1].events[0].kind, EventKind::kApply);
   EXPECT_EQ(pattern.instants[1].events[0].sample, pattern.instants[0].events[0].sample - 2);
 }
 
@@ -51,7 +51,7 @@ TEST(SamplePattern, ADelayOfWholeSamples) {
   const SamplePattern pattern = sample_pattern(sampled({{0.1, 0.3}}));
   ASSERT_EQ(pattern.instants.size(), 1U);
   ASSERT_EQ(pattern.instants[0].events.size(), 2U);
-  EXPECT_EQ(pattern.instants[0].events[0].kind, Kind::kApply);
+  EXPECT_EQ(pattern.instants[0].events[0].kind, EventKind::kApply);
   EXPECT_EQ(pattern.instants[0].events[0].sample, pattern.instants[0].events[1].sample - 3);
 }
 

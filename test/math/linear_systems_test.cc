@@ -50,7 +50,7 @@ TEST(LinearSystems, ExponentialOfATurnAndOfANilpotentMatrix) {
   const MatrixXd E = matrix_exponential(N);
   EXPECT_NEAR(E(0, 2), 50.0, 1e-12);
   EXPECT_NEAR(E(0, 1), 10.0, 1e-13);
-  EXPECT_TRUE(matrix_exponential(MatrixXd::Zero(2, 2)).isIdentity(1e-15));
+  EXPECT_TRUE(matrix_exponential(MatrixXd(MatrixXd::Zero(2, 2))).isIdentity(1e-15));
 }
 
 TEST(LinearSystems, TransferFunctionOfAThirdOrderLag) {

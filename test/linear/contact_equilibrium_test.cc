@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "integration/mechanisms.h"
+#include "linear/equilibrium.h"
 #include "problem/load_problem.h"
-#include "statics/equilibrium.h"
 
 namespace codesign {
 namespace {
