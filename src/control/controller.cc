@@ -145,13 +145,13 @@ class Resolver {
     const ControlRealization& realization = study_.controllers[k].realization;
     ControllerStates& places = controllers_[k].states;
     const bool sampled = realization.is_sampled(), pid = controllers_[k].kind->is_pid;
-    const auto filters = filters_of(study_.controllers[k]);
-    const bool filtered =
-        std::any_of(filters.begin(), filters.end(), [](const auto* of) { return !of->empty(); });
+    bool filtered = false;
+    for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input)
+      filtered = filtered || !filters_of(study_.controllers[k], input).empty();
     if (sampled || realization.derivative_filter || filtered) refuse_rates(k);
-    for (const auto* of : filters) {
+    for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input) {
       places.inputs.emplace_back();
-      for (const FilterDescription& filter : *of) {
+      for (const FilterDescription& filter : filters_of(study_.controllers[k], input)) {
         places.inputs.back().push_back({*states, filter.kind->order});
         *states += filter.kind->order;
       }
@@ -266,12 +266,14 @@ class Resolver {
 
 }  // namespace
 
-std::vector<const std::vector<FilterDescription>*> filters_of(
-    const ControllerDescription& description) {
-  std::vector<const std::vector<FilterDescription>*> filters;
-  if (description.kind->has_error()) filters.push_back(&description.filters);
-  for (const FeedbackTerm& term : description.feedback) filters.push_back(&term.filters);
-  return filters;
+std::size_t filtered_inputs(const ControllerDescription& description) {
+  return (description.kind->has_error() ? 1U : 0U) + description.feedback.size();
+}
+
+const std::vector<FilterDescription>& filters_of(const ControllerDescription& description,
+                                                 std::size_t k) {
+  const std::size_t own = description.kind->has_error() ? 1 : 0;
+  return k < own ? description.filters : description.feedback[k - own].filters;
 }
 
 bool Controller::has_start() const {
@@ -357,21 +359,22 @@ std::string find_impossible(const ControllerDescription& description,
 
 std::string find_impossible_filter(const ControllerDescription& description,
                                    const std::vector<double>& parameters) {
-  const auto filters = filters_of(description);
-  for (std::size_t k = 0; k < filters.size(); ++k)
-    for (std::size_t stage = 0; stage < filters[k]->size(); ++stage) {
-      const FilterDescription& filter = (*filters[k])[stage];
+  for (std::size_t k = 0; k < filtered_inputs(description); ++k) {
+    const std::vector<FilterDescription>& filters = filters_of(description, k);
+    for (std::size_t stage = 0; stage < filters.size(); ++stage) {
+      const FilterDescription& filter = filters[stage];
       std::vector<double> numbers;
       for (const Quantity& number : filter.numbers) numbers.push_back(number.at(parameters));
       const bool is_term = !description.kind->has_error();
       std::string name = "controllers." + description.name +
                          (is_term ? ".feedback[" + std::to_string(k) + "]" : "") + ".filter";
-      if (filters[k]->size() > 1) name += "[" + std::to_string(stage) + "]";
+      if (filters.size() > 1) name += "[" + std::to_string(stage) + "]";
       if (std::string fault =
               find_bad_filter(filter, name, description.realization.sample_time, numbers);
           !fault.empty())
         return fault;
     }
+  }
   return "";
 }
 

@@ -40,9 +40,11 @@ Bounds<T> bounds_at(const ControlBounds& bounds, const std::vector<T>& parameter
   return {bounds.lower ? bounds.lower->at(parameters) : T(-upper), upper, !bounds.lower};
 }
 
-/// The filters of each input of a controller: of its input, or of the signals of its feedback.
-std::vector<const std::vector<FilterDescription>*> filters_of(
-    const ControllerDescription& description);
+/// How many inputs of a controller may have filters: its input, or the signals of its feedback.
+std::size_t filtered_inputs(const ControllerDescription& description);
+/// The filters of the k-th of these inputs.
+const std::vector<FilterDescription>& filters_of(const ControllerDescription& description,
+                                                 std::size_t k);
 
 /// ControllerConstants::tracking at `parameters`.
 template <class T>
@@ -77,11 +79,10 @@ void controller_constants(const ControllerDescription& description,
   if (realization.output_limit) c.output_limit = bounds_at(*realization.output_limit, parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
   c.tracking = tracking_at(description, parameters);
-  const auto filters = filters_of(description);
-  c.filters.resize(filters.size());
-  for (std::size_t k = 0; k < filters.size(); ++k) {
+  c.filters.resize(filtered_inputs(description));
+  for (std::size_t k = 0; k < c.filters.size(); ++k) {
     c.filters[k].clear();
-    for (const FilterDescription& filter : *filters[k])
+    for (const FilterDescription& filter : filters_of(description, k))
       c.filters[k].push_back(section_of(filter, realization.sample_time, parameters));
   }
   if (description.kind->input == ControlInput::kShape) c.shape.set(description.basis, parameters);

@@ -317,7 +317,7 @@ class Values(unittest.TestCase):
         self.assertEqual(problem.gradient([0.4])[0], value)
         self.assertEqual(problem.gradient(np.array([0.6]), length=0.4)[1].tolist(), gradient.tolist())
         self.assertEqual(problem([0.4])[0], value)
-        self.assertAlmostEqual(problem.objective(length=0.4), value, delta=1e-6, msg="other steps than with a gradient")
+        self.assertAlmostEqual(problem.objective(length=0.4), value, delta=5e-6, msg="other steps than with a gradient, at the default tolerance of 1e-6")
         self.assertNotEqual(problem.objective(), value)
         heavy = problem.objective(payload=0.7)
         self.assertNotEqual(heavy, problem.objective())
