@@ -297,17 +297,20 @@ std::vector<StatePlace> Controller::places(int queued) const {
 
 namespace {
 
-std::string find_bad_bounds(const std::string& name, const Bounds<double>& bounds, bool is_smooth) {
+// Names are put together for faults alone: a design without any asks for no memory.
+std::string find_bad_bounds(const ControllerDescription& of, const char* key,
+                            const Bounds<double>& bounds, bool is_smooth) {
+  const auto name = [&of, key] { return "controllers." + of.name + "." + key; };
   const auto is_bad = [is_smooth](double bound) {
     return is_smooth ? !(bound > 0.0) : bound < 0.0;
   };
   const bool is_lower = is_bad(-bounds.lower) && !bounds.is_symmetric;
   if (is_bad(bounds.upper) || (bounds.is_symmetric && !(bounds.upper > 0.0)))
-    return name + " is " + to_decimal(bounds.upper) + ", it must be positive";
+    return name() + " is " + to_decimal(bounds.upper) + ", it must be positive";
   if (is_lower)
-    return "the lower bound of " + name + " is " + to_decimal(bounds.lower) +
+    return "the lower bound of " + name() + " is " + to_decimal(bounds.lower) +
            (is_smooth ? ", it must be negative" : ", it must not be positive");
-  if (!(bounds.lower < bounds.upper)) return name + " leaves nothing between its bounds";
+  if (!(bounds.lower < bounds.upper)) return name() + " leaves nothing between its bounds";
   return "";
 }
 
@@ -332,12 +335,13 @@ std::string find_bad_filter(const FilterDescription& filter, const std::string& 
 std::string find_impossible(const ControllerDescription& description,
                             const ControllerConstants<double>& constants) {
   const ControlRealization& realization = description.realization;
-  const std::string name = "controllers." + description.name + ".";
+  const auto name = [&description] { return "controllers." + description.name + "."; };
   const bool is_smooth = !realization.is_sampled();
   std::string fault;
-  if (realization.i_clamp) fault = find_bad_bounds(name + "i_clamp", constants.i_clamp, is_smooth);
+  if (realization.i_clamp)
+    fault = find_bad_bounds(description, "i_clamp", constants.i_clamp, is_smooth);
   if (fault.empty() && realization.output_limit)
-    fault = find_bad_bounds(name + "output_limit", constants.output_limit,
+    fault = find_bad_bounds(description, "output_limit", constants.output_limit,
                             is_smooth && !realization.limit_has_corners);
   const struct {
     const char* name;
@@ -348,11 +352,12 @@ std::string find_impossible(const ControllerDescription& description,
       {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
   for (const auto& number : numbers)
     if (fault.empty() && number.exists && !(number.value > 0.0))
-      fault = name + number.name + " is " + to_decimal(number.value) + ", it must be positive";
+      fault = name() + number.name + " is " + to_decimal(number.value) + ", it must be positive";
   // With the opposite sign what is cut off would drive the integral on.
   if (fault.empty() && realization.antiwindup == AntiWindup::kBackCalculation &&
       constants.tracking * constants.pid.i < 0.0)
-    fault = name + (realization.tracking_time ? "tracking_time is " : "tracking_time, p / i, is ") +
+    fault = name() +
+            (realization.tracking_time ? "tracking_time is " : "tracking_time, p / i, is ") +
             to_decimal(constants.tracking / constants.pid.i) + ", it must be positive";
   return fault;
 }
