@@ -92,8 +92,9 @@ void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
 namespace {
 
 constexpr const char* kFormsOfConstraints =
-    "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]} or "
-    "{peak: signal, at_most: bound}";
+    "\"expression >= expression\", {expression: \"${expression}\", between: [lower, upper]}, "
+    "{peak: signal, at_most: bound}, {loop: controller, measure: name, at_least: bound} or "
+    "{poles: name, at_most: bound}";
 
 /// Whether both bounds are the same number, so that the expression has to have it.
 bool is_one_number(const Between& bounds) {
