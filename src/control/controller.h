@@ -37,7 +37,8 @@ struct ControllerConstants {
 template <class T>
 Bounds<T> bounds_at(const ControlBounds& bounds, const std::vector<T>& parameters) {
   const T upper = bounds.upper.at(parameters);
-  return {bounds.lower ? bounds.lower->at(parameters) : T(-upper), upper, !bounds.lower};
+  return {bounds.lower ? bounds.lower->at(parameters) : static_cast<T>(-upper), upper,
+          !bounds.lower};
 }
 
 /// How many inputs of a controller may have filters: its input, or the signals of its feedback.
@@ -50,7 +51,8 @@ const std::vector<FilterDescription>& filters_of(const ControllerDescription& de
 template <class T>
 T tracking_at(const ControllerDescription& of, const std::vector<T>& parameters) {
   const std::optional<Quantity>& time = of.realization.tracking_time;
-  return time ? T(time->at(parameters) * of.i.at(parameters)) : T(of.p.at(parameters));
+  return time ? static_cast<T>(time->at(parameters) * of.i.at(parameters))
+              : static_cast<T>(of.p.at(parameters));
 }
 
 /// Evaluates a description at `parameters`, all named parameters. The description must outlive the

@@ -3,6 +3,7 @@
 
 #include "assembly/assembly.h"
 #include "control/reference.h"
+#include "description/study.h"
 #include "equations/iteration_matrix.h"
 #include "linear/linear_coordinates.h"
 #include "math/arrays.h"

@@ -9,6 +9,7 @@
 #include "elements/sampled_control.h"
 #include "linear/linear_coordinates.h"
 #include "math/arrays.h"
+#include "math/linear_systems.h"
 
 namespace codesign {
 namespace {
