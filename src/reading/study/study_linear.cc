@@ -53,12 +53,28 @@ struct LinearReader {
     return value.text();
   }
 
+  /// How a sampled filter moves with a small motion has no derivatives by the design yet.
+  void refuse_sampled_filters(const YamlValue& item) const {
+    for (const ControllerDescription& controller : study.controllers) {
+      const bool has_filters =
+          !controller.filters.empty() ||
+          std::any_of(controller.feedback.begin(), controller.feedback.end(),
+                      [](const FeedbackTerm& term) { return !term.filters.empty(); });
+      if (has_filters && controller.realization.is_sampled())
+        item.fail(
+            "the sampled controller \"" + controller.name +
+                "\" has filters, and poles and margins of such loops have no derivatives",
+            "controllers whose filters are continuous; codesign linearize shows these numbers");
+    }
+  }
+
   WatchedSignal watched(const YamlValue& value, const LinearMeasure& measure, Role role) const {
     if (study.postures > 0)
       value.fail(
           "poles and loops are those about the rest of a motion, and positions are many "
           "postures",
           "a study with duration; runs that set other starts or set-points");
+    refuse_sampled_filters(value);
     WatchedSignal watched;
     watched.role = role;
     watched.measure = measure.counts_smallest() ? WatchedSignal::Measure::kMinimum
@@ -113,20 +129,6 @@ struct LinearReader {
   }
 };
 
-/// How a sampled filter moves with a small motion has no derivatives by the design yet.
-void refuse_sampled_filters(const YamlValue& item, const Study& study) {
-  for (const ControllerDescription& controller : study.controllers) {
-    const bool has_filters =
-        !controller.filters.empty() ||
-        std::any_of(controller.feedback.begin(), controller.feedback.end(),
-                    [](const FeedbackTerm& term) { return !term.filters.empty(); });
-    if (has_filters && controller.realization.is_sampled())
-      item.fail("the sampled controller \"" + controller.name +
-                    "\" has filters, and poles and margins of such loops have no derivatives",
-                "controllers whose filters are continuous; codesign linearize shows these numbers");
-  }
-}
-
 }  // namespace
 
 bool is_linear_item(const YamlValue& item) {
@@ -138,17 +140,12 @@ void read_linear(const YamlValue& study_value, const ParameterTable& table, Stud
   std::vector<WatchedSignal> found;
   if (const auto items = study_value.find("constraints"))
     for (const YamlValue& item : items->items())
-      if (is_linear_item(item)) {
-        refuse_sampled_filters(item, *study);
-        found.push_back(reader.read_bounded(item));
-      }
+      if (is_linear_item(item)) found.push_back(reader.read_bounded(item));
   if (const auto objective = study_value.find("objective"))
     for (const char* key : {"loop", "poles"})
       if (const auto items = objective->find(key))
-        for (const YamlValue& item : items->items()) {
-          refuse_sampled_filters(item, *study);
+        for (const YamlValue& item : items->items())
           found.push_back(reader.read_term(item, std::string(key) == "poles"));
-        }
   study->watched.insert(study->watched.end(), found.begin(), found.end());
 }
 
