@@ -1,5 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-// A force as a function of time with 200 coefficients, of the table of stops in doc/performance.md.
+// A force as a function of time with 200 coefficients, of the table of stops in
+// benchmark/sweeps.md.
 #include <algorithm>
 
 #include "cases/shipped.h"
