@@ -62,14 +62,16 @@ bool is_linear_item(const YamlValue& item);
 /// Appends the terms `objective.loop`, `objective.poles` and the bounds of `constraints:` on them
 /// to Study::watched, of which they are the last. @throws InputError for a controller that is none
 /// or drives no joint, and in a study with postures.
-void read_linear(const YamlValue& study_value, const ParameterTable& table, Study* study);
+void read_linear(const YamlValue& study_value, const RobotDescription& robot,
+                 const ParameterTable& table, const TrajectoryLoader& loader, Study* study);
 
 /// Reads the constraints among parameters in the list `constraints:`, each `left >= right`, `left
 /// <= right` or
 /// `{expression: "${...}", between: [lower, upper]}`; a bound on both sides becomes two
 /// constraints. Study::parameters must have been read.
 /// @throws InputError
-void read_constraints(const YamlValue& study_value, Study* study);
+void read_constraints(const YamlValue& study_value, const RobotDescription& robot,
+                      const TrajectoryLoader& loader, Study* study);
 
 /// Reads `initial_state:`. @param table of Study::parameters. @throws InputError
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
@@ -134,14 +136,9 @@ std::vector<FilterDescription> read_filters(const YamlValue& value, const Parame
 /// @throws InputError for a sampled filter whose frequency its sample time does not show.
 void check_filters(const ControllerDescription& controller);
 
-/// The optional keys of a controller of this kind: its `own` keys, then the keys about its program
-/// on a robot.
-std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own);
-
-/// Reads them into ControllerDescription::realization; the gains must have been read. @throws
-/// InputError
-void read_realization(const YamlValue& value, const ParameterTable& table,
-                      ControllerDescription* controller);
+/// @throws InputError for keys about a controller's program on a robot, realization_keys(), that
+/// have no effect without others.
+void check_realization(const YamlValue& value, const ControllerDescription& controller);
 
 /// Reads `hardware:`, doc/study.md: for controllers of the study, the namespaces of their gains on
 /// the robot. The controllers must have been read. @throws InputError for an unknown controller, a

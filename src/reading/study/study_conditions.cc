@@ -8,6 +8,7 @@
 #include "description/expression_syntax.h"
 #include "math/scalar.h"
 #include "mechanism/signal_catalog.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/signal_table.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -186,103 +187,122 @@ bool is_table(const YamlValue& value) {
   return type && type->text() == "table";
 }
 
-/// What the loads of a study are read with.
-struct LoadReader {
-  const RobotDescription& robot;
-  const ParameterTable& table;
-  const TrajectoryLoader& loader;
-  const Study& study;
+/// Refuses the first word that follows the name of a joint, link or controller and a slash.
+void refuse_unknown_quantity(const YamlValue& value, const EntryContext& in) {
+  const std::string text = value.text();
+  const auto check = [&](const std::string& name) {
+    const std::size_t at = text.find(name + "/"), word = at + name.size() + 1;
+    if (at == std::string::npos || in.table.index.count(name) > 0) return;
+    if (continues_identifier(text[at - 1])) return;
+    std::size_t end = word;
+    while (end < text.size() && continues_identifier(text[end])) ++end;
+    if (end == word) return;
+    const std::string quantity = text.substr(word, end - word);
+    check_signal({name + "/" + quantity, {{1.0, name, quantity, ""}}, value.where(), nullptr},
+                 in.robot, in.study.controllers, value.path());
+  };
+  for (const JointDescription& joint : in.robot.joints) check(joint.name);
+  for (const LinkDescription& link : in.robot.links) check(link.name);
+  for (const ControllerDescription& controller : in.study.controllers) check(controller.name);
+}
 
-  LoadFunction read(const YamlValue& value) const {
-    LoadFunction function;
-    SignalDescription signal;
-    if (is_table(value))
-      signal = read_signal_table(value, table);
-    else if (!value.is_map() && is_expression(value.text()))
-      signal = parse_signal(value.text(), value.where(), value.path());
-    if (signal.terms.empty()) {
-      function.of_time = read_of_time(value);
-      return function;
-    }
-    check_signal(signal, robot, study.controllers, value.path());
-    use_parameters(signal, table);
-    function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
+/// A function of time. In `${2*elbow/positon}` the word after the joint is no quantity, so that
+/// there is no signal: the error shall tell that, not that `elbow` is no parameter.
+ReferenceDescription read_of_time(const YamlValue& value, const EntryContext& in) {
+  try {
+    return read_reference(value, in.table, in.loader);
+  } catch (const InputError&) {
+    if (!value.is_map() && is_expression(value.text())) refuse_unknown_quantity(value, in);
+    throw;
+  }
+}
+
+LoadFunction read_function(const YamlValue& value, const EntryContext& in) {
+  LoadFunction function;
+  SignalDescription signal;
+  if (is_table(value))
+    signal = read_signal_table(value, in.table);
+  else if (!value.is_map() && is_expression(value.text()))
+    signal = parse_signal(value.text(), value.where(), value.path());
+  if (signal.terms.empty()) {
+    function.of_time = read_of_time(value, in);
     return function;
   }
+  check_signal(signal, in.robot, in.study.controllers, value.path());
+  use_parameters(signal, in.table);
+  function.of_signals = std::make_shared<const SignalDescription>(std::move(signal));
+  return function;
+}
 
-  /// A function of time. In `${2*elbow/positon}` the word after the joint is no quantity, so that
-  /// there is no signal: the error shall tell that, not that `elbow` is no parameter.
-  ReferenceDescription read_of_time(const YamlValue& value) const {
-    try {
-      return read_reference(value, table, loader);
-    } catch (const InputError&) {
-      if (!value.is_map() && is_expression(value.text())) refuse_unknown_quantity(value);
-      throw;
-    }
-  }
+using Components = std::array<LoadFunction, 3>;
 
-  /// Refuses the first word that follows the name of a joint, link or controller and a slash.
-  void refuse_unknown_quantity(const YamlValue& value) const {
-    const std::string text = value.text();
-    const auto check = [&](const std::string& name) {
-      const std::size_t at = text.find(name + "/"), word = at + name.size() + 1;
-      if (at == std::string::npos || table.index.count(name) > 0) return;
-      if (continues_identifier(text[at - 1])) return;
-      std::size_t end = word;
-      while (end < text.size() && continues_identifier(text[end])) ++end;
-      if (end == word) return;
-      const std::string quantity = text.substr(word, end - word);
-      check_signal({name + "/" + quantity, {{1.0, name, quantity, ""}}, value.where(), nullptr},
-                   robot, study.controllers, value.path());
-    };
-    for (const JointDescription& joint : robot.joints) check(joint.name);
-    for (const LinkDescription& link : robot.links) check(link.name);
-    for (const ControllerDescription& controller : study.controllers) check(controller.name);
-  }
+EntryKey<LoadDescription> components_key(const char* name, Components LoadDescription::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const EntryContext& in, LoadDescription* load) {
+            if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
+            const std::vector<YamlValue> items = value.items();
+            if (items.size() != 3)
+              value.fail("three components are needed, found " + std::to_string(items.size()),
+                         "[x, y, z]");
+            for (std::size_t k = 0; k < 3; ++k) (load->*member)[k] = read_function(items[k], in);
+          }};
+}
 
-  std::array<LoadFunction, 3> read_components(const YamlValue& value) const {
-    if (!value.is_list()) value.fail("three components are needed", "[x, y, z]");
-    const std::vector<YamlValue> items = value.items();
-    if (items.size() != 3)
-      value.fail("three components are needed, found " + std::to_string(items.size()), "[x, y, z]");
-    return {read(items[0]), read(items[1]), read(items[2])};
-  }
+const EntryKeys<LoadDescription>& effort_keys() {
+  static const EntryKeys<LoadDescription> kKeys{
+      required_key<LoadDescription>(
+          "joint",
+          [](const YamlValue& value, const EntryContext& in, LoadDescription* load) {
+            load->joint = scalar_joint(value.text(), in.robot, value).name;
+          }),
+      required_key<LoadDescription>(
+          "effort", [](const YamlValue& value, const EntryContext& in, LoadDescription* load) {
+            load->effort = read_function(value, in);
+          })};
+  return kKeys;
+}
 
-  void read_effort(const YamlValue& value, LoadDescription* load) const {
-    value.require_keys({"joint", "effort"}, {});
-    const YamlValue joint = value.at("joint");
-    load->joint = scalar_joint(joint.text(), robot, joint).name;
-    load->effort = read(value.at("effort"));
-  }
+const EntryKeys<LoadDescription>& wrench_keys() {
+  static const EntryKeys<LoadDescription> kKeys{
+      required_key<LoadDescription>(
+          "link",
+          [](const YamlValue& value, const EntryContext& in, LoadDescription* load) {
+            std::vector<std::string> known;
+            for (const LinkDescription& link : in.robot.links) known.push_back(link.name);
+            load->link = value.choice("link", known);
+          }),
+      components_key("force", &LoadDescription::force),
+      components_key("torque", &LoadDescription::torque),
+      optional_key<LoadDescription>(
+          "point", [](const YamlValue& value, const EntryContext& in,
+                      LoadDescription* load) { load->point = read_vector(value, in.table); }),
+      optional_key<LoadDescription>(
+          "frame", [](const YamlValue& value, const EntryContext&, LoadDescription* load) {
+            load->in_link_frame = value.choice("frame", {"root", "link"}) == "link";
+          })};
+  return kKeys;
+}
 
-  void read_wrench(const YamlValue& value, LoadDescription* load) const {
-    value.require_keys({"link"}, {"force", "torque", "point", "frame"});
-    const YamlValue link = value.at("link");
-    std::vector<std::string> known;
-    for (const LinkDescription& description : robot.links) known.push_back(description.name);
-    load->link = link.choice("link", known);
-    const auto force = value.find("force"), torque = value.find("torque"),
-               point = value.find("point"), frame = value.find("frame");
-    if (!force && !torque)
-      value.fail("a load on a link needs a force or a torque",
-                 "force: [x, y, z], torque: [x, y, z]");
-    if (point && !force)
-      point->fail("a point without a force has no meaning: it is where the force acts",
-                  "force: [x, y, z]");
-    if (force) load->force = read_components(*force);
-    if (torque) load->torque = read_components(*torque);
-    if (point) load->point = read_vector(*point, table);
-    if (frame) load->in_link_frame = frame->choice("frame", {"root", "link"}) == "link";
-  }
-};
+void check_wrench(const YamlValue& value) {
+  const auto force = value.find("force"), point = value.find("point");
+  if (!force && !value.find("torque"))
+    value.fail("a load on a link needs a force or a torque", "force: [x, y, z], torque: [x, y, z]");
+  if (point && !force)
+    point->fail("a point without a force has no meaning: it is where the force acts",
+                "force: [x, y, z]");
+}
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_loads() {
+  return {{"loads[]", effort_keys()}, {"loads[]", wrench_keys()}};
+}
 
 void read_loads(const YamlValue& study_value, const RobotDescription& robot,
                 const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto loads = study_value.find("loads");
   if (!loads) return;
-  const LoadReader reader{robot, table, loader, *study};
+  const EntryContext in{robot, table, loader, *study};
   for (const YamlValue& value : loads->items()) {
     LoadDescription load;
     load.where = value.where();
@@ -293,8 +313,9 @@ void read_loads(const YamlValue& study_value, const RobotDescription& robot,
     if (on_joint == on_link)
       value.fail("a load acts on one joint or on one link",
                  "{joint: NAME, effort: Q} or {link: NAME, force: [x, y, z]}");
-    on_joint ? reader.read_effort(value, &load) : reader.read_wrench(value, &load);
-    study->loads.push_back(load);
+    read_entry(value, on_joint ? effort_keys() : wrench_keys(), in, &load);
+    if (on_link) check_wrench(value);
+    study->loads.push_back(std::move(load));
   }
 }
 

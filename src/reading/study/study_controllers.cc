@@ -4,18 +4,11 @@
 #include <algorithm>
 
 #include "mechanism/signal_catalog.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_values.h"
 
 namespace codesign {
 namespace {
-
-/// The data that the readers of one controller share.
-struct Context {
-  const RobotDescription& robot;
-  const ParameterTable& table;
-  const TrajectoryLoader& loader;
-  const Study& study;
-};
 
 void read_gains(const YamlValue& gains, const ParameterTable& table,
                 ControllerDescription* controller) {
@@ -43,105 +36,125 @@ void refuse_taken_name(const std::string& name, const YamlValue& value,
 }
 
 // A signal may use the controllers before this one, which allows cascades and excludes cycles.
-SignalDescription read_signal(const YamlValue& value, const Context& context) {
+SignalDescription read_signal(const YamlValue& value, const EntryContext& in) {
   SignalDescription signal = parse_signal(value.text(), value.where(), value.path());
-  use_parameters(signal, context.table);
-  check_signal(signal, context.robot, context.study.controllers, value.path());
+  use_parameters(signal, in.table);
+  check_signal(signal, in.robot, in.study.controllers, value.path());
   return signal;
 }
 
-/// The position of the joint that the controller drives.
-SignalDescription own_position(const ControllerDescription& controller) {
-  return {controller.output + "/position",
-          {{1.0, controller.output, "position", ""}},
-          controller.where};
+/// @param has_gain whether the term gives its gain; else the gain is a parameter, initial_gain().
+EntryKeys<FeedbackTerm> feedback_keys(bool has_gain) {
+  using Term = FeedbackTerm;
+  EntryKeys<Term> keys{
+      required_key<Term>("signal", [](const YamlValue& value, const EntryContext& in,
+                                      Term* term) { term->signal = read_signal(value, in); }),
+      optional_key<Term>("reference",
+                         [](const YamlValue& value, const EntryContext& in, Term* term) {
+                           term->reference = read_reference(value, in.table, in.loader);
+                         }),
+      optional_key<Term>("filter", [](const YamlValue& value, const EntryContext& in, Term* term) {
+        term->filters = read_filters(value, in.table);
+      })};
+  if (has_gain)
+    keys.push_back(
+        required_key<Term>("gain", [](const YamlValue& value, const EntryContext& in, Term* term) {
+          term->gain = read_quantity(value, in.table);
+        }));
+  return keys;
 }
 
-void read_with_input(const YamlValue& value, const Context& context,
-                     ControllerDescription* controller) {
-  value.require_keys({"type", "input", "setpoint", "gains"},
-                     with_realization_keys(controller->kind, {"output"}));
-  controller->input = read_signal(value.at("input"), context);
-  controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
-  read_gains(value.at("gains"), context.table, controller);
+void read_feedback(const YamlValue& value, const EntryContext& in,
+                   ControllerDescription* controller) {
+  for (const YamlValue& item : value.items()) {
+    const std::optional<Quantity> gain =
+        initial_gain(controller->name, controller->feedback.size(), in.table, in.study);
+    FeedbackTerm term;
+    if (gain) term.gain = *gain;
+    read_entry(item, feedback_keys(!gain), in, &term);
+    controller->feedback.push_back(std::move(term));
+  }
 }
 
-/// Such as gravity compensation and computed torque; the input is the position of the joint that
-/// they drive.
-void read_with_own_position(const YamlValue& value, const Context& context,
-                            ControllerDescription* controller) {
-  value.require_keys({"type", "setpoint", "output", "gains"},
-                     with_realization_keys(controller->kind, {}));
-  controller->input = own_position(*controller);
-  controller->setpoint = read_reference(value.at("setpoint"), context.table, context.loader);
-  read_gains(value.at("gains"), context.table, controller);
+void read_output(const YamlValue& value, const EntryContext& in,
+                 ControllerDescription* controller) {
+  controller->output = scalar_joint(value.text(), in.robot, value).name;
+}
+void read_setpoint(const YamlValue& value, const EntryContext& in,
+                   ControllerDescription* controller) {
+  controller->setpoint = read_reference(value, in.table, in.loader);
+}
+EntryKey<ControllerDescription> gains_key() {
+  return {"gains", true,
+          [](const YamlValue& value, const EntryContext& in, ControllerDescription* controller) {
+            read_gains(value, in.table, controller);
+          }};
 }
 
-void read_state_feedback(const YamlValue& value, const Context& context,
-                         ControllerDescription* controller) {
-  value.require_keys({"type"}, with_realization_keys(controller->kind, {"output", "feedback",
-                                                                        "feedforward", "gains"}));
-  if (const auto feedforward = value.find("feedforward"))
-    controller->feedforward = read_reference(*feedforward, context.table, context.loader);
-  const auto feedback = value.find("feedback");
-  const std::vector<YamlValue> terms = feedback ? feedback->items() : std::vector<YamlValue>{};
-  if (terms.empty() && !value.find("feedforward"))
+/// The keys of a controller by what its law works on; the type has been read.
+ControllerKeys law_keys(ControlInput input) {
+  const ControllerKeys type{{"type", true, nullptr}}, output{{"output", true, read_output}};
+  switch (input) {
+    case ControlInput::kSignal:
+      return {
+          {"type", true, nullptr},
+          {"output", false, read_output},
+          {"input", true,
+           [](const YamlValue& value, const EntryContext& in, ControllerDescription* controller) {
+             controller->input = read_signal(value, in);
+           }},
+          {"setpoint", true, read_setpoint},
+          gains_key()};
+    case ControlInput::kOwnPosition:
+      return with(with(type, output),
+                  ControllerKeys{{"setpoint", true, read_setpoint}, gains_key()});
+    case ControlInput::kFeedback:
+      return {
+          {"type", true, nullptr},
+          {"output", false, read_output},
+          {"feedforward", false,
+           [](const YamlValue& value, const EntryContext& in, ControllerDescription* controller) {
+             controller->feedforward = read_reference(value, in.table, in.loader);
+           }},
+          {"gains", false, nullptr},  // declare_gains() has read them
+          {"feedback", false, read_feedback}};
+    case ControlInput::kShape:  // read_basis() reads the shape
+      return with(with(type, output), ControllerKeys{{"coefficients", true, nullptr},
+                                                     {"shape", false, nullptr},
+                                                     {"duration", false, nullptr}});
+  }
+  return {};
+}
+
+/// What follows from several keys.
+void complete(const YamlValue& value, const EntryContext& in, ControllerDescription* controller) {
+  // Gravity compensation and computed torque have the position of the joint that they drive.
+  if (controller->kind->input == ControlInput::kOwnPosition)
+    controller->input = {controller->output + "/position",
+                         {{1.0, controller->output, "position", ""}},
+                         controller->where};
+  if (controller->kind->input == ControlInput::kFeedback && controller->feedback.empty() &&
+      !value.find("feedforward"))
     value.fail("the controller does nothing",
                "feedback: at least one {signal, gain, reference}; or feedforward");
-  for (const YamlValue& item : terms) {
-    const std::optional<Quantity> found =
-        initial_gain(controller->name, controller->feedback.size(), context.table, context.study);
-    if (found)
-      item.require_keys({"signal"}, {"reference", "filter"});
-    else
-      item.require_keys({"signal", "gain"}, {"reference", "filter"});
-    FeedbackTerm term;
-    term.signal = read_signal(item.at("signal"), context);
-    term.gain = found ? *found : read_quantity(item.at("gain"), context.table);
-    if (const auto reference = item.find("reference"))
-      term.reference = read_reference(*reference, context.table, context.loader);
-    if (const auto filter = item.find("filter"))
-      term.filters = read_filters(*filter, context.table);
-    controller->feedback.push_back(term);
-  }
-}
-
-void read_basis_controller(const YamlValue& value, const Context& context,
-                           ControllerDescription* controller) {
-  value.require_keys({"type", "output", "coefficients"},
-                     with_realization_keys(controller->kind, {"shape", "duration"}));
-  controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
-}
-
-void read_law(const YamlValue& value, const Context& context, ControllerDescription* controller) {
-  switch (controller->kind->input) {
-    case ControlInput::kSignal:
-      return read_with_input(value, context, controller);
-    case ControlInput::kOwnPosition:
-      return read_with_own_position(value, context, controller);
-    case ControlInput::kFeedback:
-      return read_state_feedback(value, context, controller);
-    case ControlInput::kShape:
-      return read_basis_controller(value, context, controller);
-  }
+  if (controller->kind->input == ControlInput::kShape)
+    controller->basis = read_basis(controller->name, value, in.table, in.study.duration);
 }
 
 ControllerDescription read_controller(const std::string& name, const YamlValue& value,
-                                      const Context& context) {
-  const std::vector<ControllerKind>& laws = context.robot.laws.controllers;
-  refuse_taken_name(name, value, context.robot);
+                                      const EntryContext& in) {
+  const std::vector<ControllerKind>& laws = in.robot.laws.controllers;
+  refuse_taken_name(name, value, in.robot);
   ControllerDescription controller;
   controller.name = name;
   controller.where = value.where();
   const std::string type = value.at("type").choice("controller type", names_of(laws));
   controller.kind = *std::find_if(laws.begin(), laws.end(),
                                   [&type](const ControllerKind& law) { return law->name == type; });
-  if (const auto output = value.find("output"))
-    controller.output = scalar_joint(output->text(), context.robot, *output).name;
-  read_law(value, context, &controller);
-  if (const auto filter = value.find("filter"))
-    controller.filters = read_filters(*filter, context.table);
-  read_realization(value, context.table, &controller);
+  read_entry(value, with(law_keys(controller.kind->input), realization_keys(controller.kind)), in,
+             &controller);
+  complete(value, in, &controller);
+  check_realization(value, controller);
   check_filters(controller);
   return controller;
 }
@@ -175,13 +188,20 @@ void refuse_idle(const Study& study) {
 
 }  // namespace
 
+std::vector<EntryForm> forms_of_controllers() {
+  std::vector<EntryForm> forms{{"controllers.NAME.feedback[]", feedback_keys(true)}};
+  for (const ControllerKind& kind : standard_laws().controllers)
+    forms.emplace_back("controllers.NAME", with(law_keys(kind->input), realization_keys(kind)));
+  return forms;
+}
+
 void read_controllers(const YamlValue& study_value, const RobotDescription& robot,
                       const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
   const auto controllers = study_value.find("controllers");
   if (!controllers) return;
   for (const auto& [name, value] : controllers->entries())
     study->controllers.push_back(
-        read_controller(name, value, Context{robot, table, loader, *study}));
+        read_controller(name, value, EntryContext{robot, table, loader, *study}));
   refuse_idle(*study);
 }
 

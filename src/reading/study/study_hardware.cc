@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -14,27 +15,27 @@ namespace {
 
 constexpr int kMostQueued = 100;
 
-std::optional<Quantity> read_positive_quantity(const YamlValue& controller, const std::string& key,
-                                               const ParameterTable& table) {
-  const auto value = controller.find(key);
-  if (!value) return std::nullopt;
-  const Quantity quantity = read_quantity(*value, table);
-  if (!(quantity.nominal() > 0.0))
-    value->fail("this must be positive at the parameters' start", "more than 0");
-  return quantity;
+using ControllerKey = EntryKey<ControllerDescription>;
+
+ControllerKey positive_key(const char* name, std::optional<Quantity> ControlRealization::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const EntryContext& in, ControllerDescription* of) {
+            of->realization.*member = read_quantity(value, in.table);
+            if (!((of->realization.*member)->nominal() > 0.0))
+              value.fail("this must be positive at the parameters' start", "more than 0");
+          }};
 }
 
 /// A number: instants and steps that changed with a parameter would be kinks of the objective.
-double read_instant(const YamlValue& controller, const std::string& key, bool may_be_zero) {
-  const auto value = controller.find(key);
-  if (!value) return 0.0;
-  if (value->text().compare(0, 2, "${") == 0)
-    value->fail("this must not depend on parameters", "a number");
-  const double number = value->number();
-  if (number < 0.0 || (number == 0.0 && !may_be_zero))
-    value->fail(may_be_zero ? "this must not be negative" : "this must be positive",
-                may_be_zero ? "0 or more" : "more than 0");
-  return number;
+ControllerKey instant_key(const char* name, double ControlRealization::*member, bool may_be_zero) {
+  return {name, false, [=](const YamlValue& value, const EntryContext&, ControllerDescription* of) {
+            if (value.text().compare(0, 2, "${") == 0)
+              value.fail("this must not depend on parameters", "a number");
+            const double number = of->realization.*member = value.number();
+            if (number < 0.0 || (number == 0.0 && !may_be_zero))
+              value.fail(may_be_zero ? "this must not be negative" : "this must be positive",
+                         may_be_zero ? "0 or more" : "more than 0");
+          }};
 }
 
 /// A key that means nothing without another one.
@@ -63,18 +64,6 @@ AntiWindup read_antiwindup(const YamlValue& value) {
     value.fail("unknown anti-windup",
                "false, clamping (the same as true), back_calculation, conditional");
   }
-}
-
-void read_limits(const YamlValue& value, const ParameterTable& table,
-                 ControlRealization* realization) {
-  realization->limit_has_corners = realization->antiwindup == AntiWindup::kBackCalculation ||
-                                   realization->antiwindup == AntiWindup::kConditional;
-  const bool is_sampled = realization->is_sampled();
-  if (const auto clamp = value.find("i_clamp"))
-    realization->i_clamp = read_control_bounds(*clamp, table, is_sampled);
-  if (const auto limit = value.find("output_limit"))
-    realization->output_limit =
-        read_control_bounds(*limit, table, is_sampled || realization->limit_has_corners);
 }
 
 void check_antiwindup(const YamlValue& value, const ControllerDescription& controller) {
@@ -121,37 +110,56 @@ ControlBounds read_control_bounds(const YamlValue& value, const ParameterTable& 
   return bounds;
 }
 
-std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
-  own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
-  if (kind->has_error()) own.emplace_back("filter");
-  if (kind->is_pid)
-    own.insert(own.end(), {"i_clamp", "antiwindup", "tracking_time", "derivative",
-                           "derivative_filter", "quantization"});
-  return own;
+ControllerKeys realization_keys(ControllerKind kind) {
+  using Of = ControllerDescription;
+  using R = ControlRealization;
+  const EntryKeys<Of> of_pid{
+      positive_key("derivative_filter", &R::derivative_filter),
+      positive_key("tracking_time", &R::tracking_time),
+      instant_key("quantization", &R::quantization, true),
+      {"antiwindup", false,
+       [](const YamlValue& value, const EntryContext&, Of* of) {
+         of->realization.antiwindup = read_antiwindup(value);
+         of->realization.limit_has_corners =
+             of->realization.antiwindup == AntiWindup::kBackCalculation ||
+             of->realization.antiwindup == AntiWindup::kConditional;
+       }},
+      {"derivative", false,
+       [](const YamlValue& value, const EntryContext&, Of* of) {
+         of->realization.rates_input =
+             value.choice("quantity", {"error", "measurement"}) == "measurement";
+       }},
+      {"i_clamp", false, [](const YamlValue& value, const EntryContext& in, Of* of) {
+         of->realization.i_clamp =
+             read_control_bounds(value, in.table, of->realization.is_sampled());
+       }}};
+  const EntryKeys<Of> of_errors{
+      {"filter", false, [](const YamlValue& value, const EntryContext& in, Of* of) {
+         of->filters = read_filters(value, in.table);
+       }}};
+  // The bounds come last: whether they may be zero depends on the sampling and the anti-windup.
+  EntryKeys<Of> keys{positive_key("time_constant", &R::time_constant),
+                     instant_key("sample_time", &R::sample_time, false),
+                     instant_key("delay", &R::delay, true)};
+  if (kind->has_error()) keys = with(keys, of_errors);
+  if (kind->is_pid) keys = with(keys, of_pid);
+  keys.push_back(
+      {"output_limit", false, [](const YamlValue& value, const EntryContext& in, Of* of) {
+         of->realization.output_limit = read_control_bounds(
+             value, in.table, of->realization.is_sampled() || of->realization.limit_has_corners);
+       }});
+  return keys;
 }
 
-void read_realization(const YamlValue& value, const ParameterTable& table,
-                      ControllerDescription* controller) {
-  ControlRealization& realization = controller->realization;
-  realization.derivative_filter = read_positive_quantity(value, "derivative_filter", table);
-  realization.time_constant = read_positive_quantity(value, "time_constant", table);
-  if (const auto antiwindup = value.find("antiwindup"))
-    realization.antiwindup = read_antiwindup(*antiwindup);
-  realization.tracking_time = read_positive_quantity(value, "tracking_time", table);
-  if (const auto derivative = value.find("derivative"))
-    realization.rates_input =
-        derivative->choice("quantity", {"error", "measurement"}) == "measurement";
-  realization.sample_time = read_instant(value, "sample_time", false);
-  realization.delay = read_instant(value, "delay", true);
-  realization.quantization = read_instant(value, "quantization", true);
-  read_limits(value, table, &realization);
-  require_partner(value, "i_clamp", !controller->i.is_zero(), "a gain i");
-  check_antiwindup(value, *controller);
-  require_partner(value, "derivative", !controller->d.is_zero(), "a gain d");
-  require_partner(value, "derivative_filter", !controller->d.is_zero(), "a gain d");
+void check_realization(const YamlValue& value, const ControllerDescription& controller) {
+  const ControlRealization& realization = controller.realization;
+  require_partner(value, "i_clamp", !controller.i.is_zero(), "a gain i");
+  check_antiwindup(value, controller);
+  require_partner(value, "derivative", !controller.d.is_zero(), "a gain d");
+  require_partner(value, "derivative_filter", !controller.d.is_zero(), "a gain d");
   require_partner(value, "delay", realization.is_sampled(), "sample_time");
   require_partner(value, "quantization", realization.is_sampled(), "sample_time");
-  require_partner(value, "time_constant", !controller->output.empty(),
+  require_partner(value, "time_constant", !controller.output.empty(),
                   "output, the joint that the controller drives");
   if (realization.queued() > kMostQueued)
     value.at("delay").fail(

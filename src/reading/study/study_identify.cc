@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_blocks.h"
 
 #include <algorithm>
@@ -21,20 +22,32 @@ FilterOptions read_filter(const YamlValue& filter) {
   return options;
 }
 
+using CalibrationKeys = EntryKeys<JointCalibration, RobotDescription>;
+
+const CalibrationKeys& calibration_keys() {
+  constexpr double kAny = -std::numeric_limits<double>::infinity();
+  static const auto fitted_key = [](const char* name, double lower,
+                                    FittedNumber JointCalibration::*member) {
+    return optional_key<JointCalibration, RobotDescription>(
+        name, [lower, member](const YamlValue& value, const RobotDescription&,
+                              JointCalibration* of) { read_fitted(value, lower, &(of->*member)); });
+  };
+  static const CalibrationKeys kKeys{
+      fitted_key("effort_scale", kAny, &JointCalibration::effort_scale),
+      fitted_key("delay", 0.0, &JointCalibration::delay),
+      fitted_key("offset", kAny, &JointCalibration::offset)};
+  return kKeys;
+}
+
 JointCalibration read_calibration(const std::string& name, const YamlValue& value,
                                   const RobotDescription& robot) {
-  constexpr double kAny = -std::numeric_limits<double>::infinity();
   JointCalibration calibration;
   calibration.joint = scalar_joint(name, robot, value).name;
   calibration.where = value.where();
-  value.require_keys({}, {"effort_scale", "delay", "offset"});
-  if (const auto scale = value.find("effort_scale")) {
-    read_fitted(*scale, kAny, &calibration.effort_scale);
-    if (calibration.effort_scale.value == 0.0)
-      scale->fail("a scale of zero leaves nothing of the measurement", "any other number");
-  }
-  if (const auto delay = value.find("delay")) read_fitted(*delay, 0.0, &calibration.delay);
-  if (const auto offset = value.find("offset")) read_fitted(*offset, kAny, &calibration.offset);
+  read_entry(value, calibration_keys(), robot, &calibration);
+  if (calibration.effort_scale.value == 0.0)
+    value.at("effort_scale")
+        .fail("a scale of zero leaves nothing of the measurement", "any other number");
   return calibration;
 }
 
@@ -99,6 +112,10 @@ std::vector<PriorDescription> read_priors(const YamlValue& prior, const Study& s
 double segment_of(const YamlValue& identify) {
   const auto segment = identify.find("segment");
   return segment ? read_above_zero(*segment, " s") : IdentificationDescription().segment;
+}
+
+std::vector<EntryForm> forms_of_calibrations() {
+  return {{"identify.joints.JOINT", calibration_keys()}};
 }
 
 IdentificationDescription read_identification(const YamlValue& identify,

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "description/linear_measure.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_blocks.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -12,122 +13,106 @@ namespace {
 
 using Role = WatchedSignal::Role;
 
-struct LinearReader {
-  const ParameterTable& table;
-  const Study& study;
+/// Changes the number of the linearization that a signal stands for.
+template <class Change>
+void set_measure(WatchedSignal* watched, const Change& change) {
+  LinearMeasure measure = watched->linear ? *watched->linear : LinearMeasure();
+  change(&measure);
+  watched->linear = std::make_shared<const LinearMeasure>(measure);
+}
 
-  /// A measure of loops or of poles.
-  LinearMeasure read_measure(const YamlValue& value, bool of_poles) const {
-    const auto names = kLinearMeasureNames.begin();
-    const auto first = names + (of_poles ? 0 : kPoleMeasures),
-               last = of_poles ? names + kPoleMeasures : kLinearMeasureNames.end();
-    const std::string name = value.choice("measure", std::vector<std::string>(first, last));
-    LinearMeasure measure;
-    measure.kind = static_cast<LinearMeasure::Kind>(std::find(first, last, name) -
-                                                    kLinearMeasureNames.begin());
-    const auto is_sampled = [](const ControllerDescription& controller) {
-      return controller.realization.is_sampled();
-    };
-    if (measure.kind == LinearMeasure::Kind::kRadius &&
-        std::none_of(study.controllers.begin(), study.controllers.end(), is_sampled))
-      value.fail("no controller of the study is sampled, so that poles have no radius",
-                 "growth, damping_ratio, or a controller with sample_time");
-    return measure;
-  }
+/// A measure of loops or of poles.
+void read_kind(const YamlValue& value, const Study& study, bool of_poles, WatchedSignal* watched) {
+  const auto names = kLinearMeasureNames.begin();
+  const auto first = names + (of_poles ? 0 : kPoleMeasures),
+             last = of_poles ? names + kPoleMeasures : kLinearMeasureNames.end();
+  const std::string name = value.choice("measure", std::vector<std::string>(first, last));
+  const auto kind =
+      static_cast<LinearMeasure::Kind>(std::find(first, last, name) - kLinearMeasureNames.begin());
+  const auto is_sampled = [](const ControllerDescription& controller) {
+    return controller.realization.is_sampled();
+  };
+  if (kind == LinearMeasure::Kind::kRadius &&
+      std::none_of(study.controllers.begin(), study.controllers.end(), is_sampled))
+    value.fail("no controller of the study is sampled, so that poles have no radius",
+               "growth, damping_ratio, or a controller with sample_time");
+  set_measure(watched, [kind](LinearMeasure* measure) { measure->kind = kind; });
+}
 
-  /// A controller that drives a joint.
-  std::string read_controller(const YamlValue& value) const {
-    std::vector<std::string> known;
-    for (const ControllerDescription& controller : study.controllers) {
-      if (!controller.output.empty())
-        known.push_back(controller.name);
-      else if (controller.name == value.text())
-        value.fail(
-            "this controller drives no joint, so that its loop is that of the controller "
-            "that reads it",
-            "a controller with an output");
-    }
-    if (known.empty()) value.fail("no controller of the study drives a joint", "controllers");
-    if (std::find(known.begin(), known.end(), value.text()) == known.end())
-      throw unknown_name(value.where(), value.path(), "controller", value.text(), known);
-    return value.text();
-  }
-
-  /// How a sampled filter moves with a small motion has no derivatives by the design yet.
-  void refuse_sampled_filters(const YamlValue& item) const {
-    for (const ControllerDescription& controller : study.controllers) {
-      const bool has_filters =
-          !controller.filters.empty() ||
-          std::any_of(controller.feedback.begin(), controller.feedback.end(),
-                      [](const FeedbackTerm& term) { return !term.filters.empty(); });
-      if (has_filters && controller.realization.is_sampled())
-        item.fail(
-            "the sampled controller \"" + controller.name +
-                "\" has filters, and poles and margins of such loops have no derivatives",
-            "controllers whose filters are continuous; codesign linearize shows these numbers");
-    }
-  }
-
-  WatchedSignal watched(const YamlValue& value, const LinearMeasure& measure, Role role) const {
-    if (study.postures > 0)
+/// A controller that drives a joint.
+void read_loop(const YamlValue& value, const EntryContext& in, WatchedSignal* watched) {
+  std::vector<std::string> known;
+  for (const ControllerDescription& controller : in.study.controllers) {
+    if (!controller.output.empty())
+      known.push_back(controller.name);
+    else if (controller.name == value.text())
       value.fail(
-          "poles and loops are those about the rest of a motion, and positions are many "
-          "postures",
-          "a study with duration; runs that set other starts or set-points");
-    refuse_sampled_filters(value);
-    WatchedSignal watched;
-    watched.role = role;
-    watched.measure = measure.counts_smallest() ? WatchedSignal::Measure::kMinimum
-                                                : WatchedSignal::Measure::kMaximum;
-    watched.where = value.where();
-    watched.element = value.path();
-    watched.before = study.duration;
-    watched.signal.where = value.where();
-    watched.signal.text = (measure.is_of_poles() ? "poles" : "loop " + measure.controller) +
-                          std::string(", ") +
-                          kLinearMeasureNames[static_cast<std::size_t>(measure.kind)];
-    watched.linear = std::make_shared<const LinearMeasure>(measure);
-    return watched;
+          "this controller drives no joint, so that its loop is that of the controller "
+          "that reads it",
+          "a controller with an output");
   }
+  if (known.empty()) value.fail("no controller of the study drives a joint", "controllers");
+  if (std::find(known.begin(), known.end(), value.text()) == known.end())
+    throw unknown_name(value.where(), value.path(), "controller", value.text(), known);
+  set_measure(watched, [&value](LinearMeasure* measure) { measure->controller = value.text(); });
+}
 
-  /// `{loop: CONTROLLER, measure: NAME, at_least: Q}` or `{poles: NAME, at_most: Q}`.
-  WatchedSignal read_bounded(const YamlValue& item) const {
-    const bool of_poles = item.find("poles").has_value();
-    if (of_poles)
-      item.require_keys({"poles"}, {"between", "at_least", "at_most", "tolerance"});
-    else
-      item.require_keys({"loop", "measure"}, {"between", "at_least", "at_most", "tolerance"});
-    LinearMeasure measure = read_measure(item.at(of_poles ? "poles" : "measure"), of_poles);
-    if (!of_poles) measure.controller = read_controller(item.at("loop"));
-    WatchedSignal result = watched(item, measure, Role::kBounded);
-    const Between bounds = read_between(item, table);
-    result.lower = bounds.lower;
-    result.upper = bounds.upper;
-    require_ordered_bounds(result, table.values);
-    if (const auto tolerance = item.find("tolerance")) {
-      result.tolerance = tolerance->number();
-      if (!(*result.tolerance > 0.0))
-        tolerance->fail("a bound cannot be kept without any error", "more than 0");
-    }
-    return result;
-  }
+EntryKey<WatchedSignal> kind_key(const char* name, bool of_poles) {
+  return required_key<WatchedSignal>(
+      name, [of_poles](const YamlValue& value, const EntryContext& in, WatchedSignal* watched) {
+        read_kind(value, in.study, of_poles, watched);
+      });
+}
 
-  WatchedSignal read_term(const YamlValue& item, bool of_poles) const {
-    item.require_keys(of_poles ? std::vector<std::string>{"measure"}
-                               : std::vector<std::string>{"loop", "measure"},
-                      {"weight"});
-    LinearMeasure measure = read_measure(item.at("measure"), of_poles);
-    if (!of_poles) measure.controller = read_controller(item.at("loop"));
-    WatchedSignal result = watched(item, measure, Role::kTerm);
-    if (const auto weight = item.find("weight")) {
-      result.weight = weight->number();
-      if (result.weight == 0.0)
-        weight->fail("a term with the weight 0 has no effect",
-                     "more than 0 to minimize, less than 0 to maximize");
-    }
-    return result;
-  }
-};
+/// The keys of a bound on, or of a term of poles or a loop. The kind comes first, since a message
+/// about it is more help than one about the controller.
+WatchedKeys linear_keys(bool of_poles, bool is_bound) {
+  WatchedKeys keys{kind_key(of_poles && is_bound ? "poles" : "measure", of_poles)};
+  if (!of_poles) keys.push_back(required_key<WatchedSignal>("loop", read_loop));
+  if (!is_bound) return with(keys, WatchedKeys{term_weight_key()});
+  return with(with(keys, bound_keys<WatchedSignal>()), WatchedKeys{tolerance_key()});
+}
+
+bool has_filters(const ControllerDescription& controller) {
+  return !controller.filters.empty() ||
+         std::any_of(controller.feedback.begin(), controller.feedback.end(),
+                     [](const FeedbackTerm& term) { return !term.filters.empty(); });
+}
+
+/// How a sampled filter moves with a small motion has no derivatives by the design yet.
+void refuse_sampled_filters(const YamlValue& item, const Study& study) {
+  for (const ControllerDescription& controller : study.controllers)
+    if (has_filters(controller) && controller.realization.is_sampled())
+      item.fail("the sampled controller \"" + controller.name +
+                    "\" has filters, and poles and margins of such loops have no derivatives",
+                "controllers whose filters are continuous; codesign linearize shows these numbers");
+}
+
+WatchedSignal read_number(const YamlValue& value, bool of_poles, Role role,
+                          const EntryContext& in) {
+  WatchedSignal watched;
+  watched.role = role;
+  watched.where = watched.signal.where = value.where();
+  watched.element = value.path();
+  watched.before = in.study.duration;
+  read_entry(value, linear_keys(of_poles, role == Role::kBounded), in, &watched);
+  if (in.study.postures > 0)
+    value.fail(
+        "poles and loops are those about the rest of a motion, and positions are many "
+        "postures",
+        "a study with duration; runs that set other starts or set-points");
+  refuse_sampled_filters(value, in.study);
+  const LinearMeasure& measure = *watched.linear;
+  watched.measure = measure.counts_smallest() ? WatchedSignal::Measure::kMinimum
+                                              : WatchedSignal::Measure::kMaximum;
+  watched.signal.text = (measure.is_of_poles() ? "poles" : "loop " + measure.controller) +
+                        std::string(", ") +
+                        kLinearMeasureNames[static_cast<std::size_t>(measure.kind)];
+  if (role != Role::kBounded) return watched;
+  require_bounds(value);
+  require_ordered_bounds(watched, in.table.values);
+  return watched;
+}
 
 }  // namespace
 
@@ -135,17 +120,26 @@ bool is_linear_item(const YamlValue& item) {
   return item.is_map() && (item.find("loop") || item.find("poles"));
 }
 
-void read_linear(const YamlValue& study_value, const ParameterTable& table, Study* study) {
-  const LinearReader reader{table, *study};
+std::vector<EntryForm> forms_of_linear_numbers() {
+  return {{"constraints[]", linear_keys(true, true)},
+          {"constraints[]", linear_keys(false, true)},
+          {"objective.poles[]", linear_keys(true, false)},
+          {"objective.loop[]", linear_keys(false, false)}};
+}
+
+void read_linear(const YamlValue& study_value, const RobotDescription& robot,
+                 const ParameterTable& table, const TrajectoryLoader& loader, Study* study) {
+  const EntryContext in{robot, table, loader, *study};
   std::vector<WatchedSignal> found;
   if (const auto items = study_value.find("constraints"))
     for (const YamlValue& item : items->items())
-      if (is_linear_item(item)) found.push_back(reader.read_bounded(item));
+      if (is_linear_item(item))
+        found.push_back(read_number(item, item.find("poles").has_value(), Role::kBounded, in));
   if (const auto objective = study_value.find("objective"))
     for (const char* key : {"loop", "poles"})
       if (const auto items = objective->find(key))
         for (const YamlValue& item : items->items())
-          found.push_back(reader.read_term(item, std::string(key) == "poles"));
+          found.push_back(read_number(item, std::string(key) == "poles", Role::kTerm, in));
   study->watched.insert(study->watched.end(), found.begin(), found.end());
 }
 

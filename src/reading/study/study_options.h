@@ -15,6 +15,18 @@
 
 namespace codesign {
 
+/// One of the names of an option's choices: the option itself, or an enumeration in this order.
+/// @param kind the word for it in messages. @throws InputError
+template <class Option, std::size_t N>
+Option read_choice(const YamlValue& value, const std::string& kind,
+                   const std::array<const char*, N>& names, const Option& /*type*/) {
+  const std::string name = value.choice(kind, {names.begin(), names.end()});
+  if constexpr (std::is_enum_v<Option>)
+    return static_cast<Option>(std::find(names.begin(), names.end(), name) - names.begin());
+  else
+    return name;
+}
+
 /// Reads one option, if the block has its key; else the option keeps its value. All throw
 /// InputError.
 struct OptionReader {
@@ -31,13 +43,7 @@ struct OptionReader {
   template <class Option, std::size_t N>
   void operator()(const std::string& key, const std::array<const char*, N>& names,
                   Option& option) const {
-    const auto value = block.find(key);
-    if (!value) return;
-    const std::string name = value->choice(key, {names.begin(), names.end()});
-    if constexpr (std::is_enum_v<Option>)
-      option = static_cast<Option>(std::find(names.begin(), names.end(), name) - names.begin());
-    else
-      option = name;
+    if (const auto value = block.find(key)) option = read_choice(*value, key, names, option);
   }
 };
 

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_blocks.h"
 
 #include <unordered_map>
@@ -96,44 +97,65 @@ constexpr const char* kFormsOfConstraints =
     "{peak: signal, at_most: bound}, {loop: controller, measure: name, at_least: bound} or "
     "{poles: name, at_most: bound}";
 
-/// Whether both bounds are the same number, so that the expression has to have it.
-bool is_one_number(const Between& bounds) {
-  return bounds.lower && bounds.upper && bounds.lower->is_constant() &&
-         bounds.upper->is_constant() && bounds.lower->nominal() == bounds.upper->nominal();
-}
-
 std::string text_of(const Quantity& quantity) {
   return quantity.is_constant() ? to_decimal(quantity.nominal()) : quantity.expression()->text();
 }
 
-/// @param table the study's parameters. It is a copy, not the table in the study, since reading a
-/// constraint must not mark its parameters as used: a constraint moves nothing.
-void read_bounded_expression(const YamlValue& item, const ParameterTable& table, Study* study) {
-  item.require_keys({"expression"}, {"between", "at_least", "at_most"});
-  const YamlValue at = item.at("expression");
-  const Quantity expression = read_quantity(at, table);
-  if (expression.is_constant() || expression.expression()->dependencies().empty())
-    at.fail("no parameter appears in the constraint", "an \"${expression}\" of the parameters");
-  const Between bounds = read_between(item, table);
-  const bool is_equality = is_one_number(bounds);
-  if (bounds.lower && bounds.upper && !is_equality &&
-      !(bounds.lower->nominal() < bounds.upper->nominal()))
-    item.fail("the lower bound, " + to_decimal(bounds.lower->nominal()) +
-                  ", must be less than the upper one, " + to_decimal(bounds.upper->nominal()) +
+/// An expression with its bounds, as written.
+struct BoundedExpression {
+  Quantity expression;
+  std::optional<Quantity> lower, upper;
+};
+
+/// Whether both bounds are the same number, so that the expression has to have it.
+bool is_one_number(const BoundedExpression& bounds) {
+  return bounds.lower && bounds.upper && bounds.lower->is_constant() &&
+         bounds.upper->is_constant() && bounds.lower->nominal() == bounds.upper->nominal();
+}
+
+EntryKeys<BoundedExpression> expression_keys() {
+  return with(
+      EntryKeys<BoundedExpression>{required_key<BoundedExpression>(
+          "expression",
+          [](const YamlValue& value, const EntryContext& in, BoundedExpression* of) {
+            of->expression = read_quantity(value, in.table);
+            if (of->expression.is_constant() || of->expression.expression()->dependencies().empty())
+              value.fail("no parameter appears in the constraint",
+                         "an \"${expression}\" of the parameters");
+          })},
+      bound_keys<BoundedExpression>());
+}
+
+void read_bounded_expression(const YamlValue& item, const EntryContext& in, Study* study) {
+  BoundedExpression bounded;
+  read_entry(item, expression_keys(), in, &bounded);
+  require_bounds(item);
+  const bool is_equality = is_one_number(bounded);
+  if (bounded.lower && bounded.upper && !is_equality &&
+      !(bounded.lower->nominal() < bounded.upper->nominal()))
+    item.fail("the lower bound, " + to_decimal(bounded.lower->nominal()) +
+                  ", must be less than the upper one, " + to_decimal(bounded.upper->nominal()) +
                   ", at the parameters' start",
               "lower < upper, or twice the same number for an equality");
   const auto add = [&](const std::string& text, const std::string& less, const std::string& more) {
     study->constraints.push_back(
-        make_constraint(text, less, more, table.names, item.where(), item.path()));
+        make_constraint(text, less, more, in.table.names, item.where(), item.path()));
   };
-  const std::string middle = expression.expression()->text();
+  const std::string middle = bounded.expression.expression()->text();
   if (is_equality) {
-    add(middle + " == " + text_of(*bounds.lower), text_of(*bounds.lower), middle);
+    const std::string number = text_of(*bounded.lower);
+    add(middle + " == " + number, number, middle);
     study->constraints.back().is_equality = true;
     return;
   }
-  if (bounds.lower) add(middle + " >= " + text_of(*bounds.lower), text_of(*bounds.lower), middle);
-  if (bounds.upper) add(middle + " <= " + text_of(*bounds.upper), middle, text_of(*bounds.upper));
+  if (bounded.lower) {
+    const std::string number = text_of(*bounded.lower);
+    add(middle + " >= " + number, number, middle);
+  }
+  if (bounded.upper) {
+    const std::string number = text_of(*bounded.upper);
+    add(middle + " <= " + number, middle, number);
+  }
 }
 
 }  // namespace
@@ -146,16 +168,22 @@ const char* bounded_measure(const YamlValue& item) {
   return nullptr;
 }
 
-void read_constraints(const YamlValue& study_value, Study* study) {
+std::vector<EntryForm> forms_of_constraints() { return {{"constraints[]", expression_keys()}}; }
+
+void read_constraints(const YamlValue& study_value, const RobotDescription& robot,
+                      const TrajectoryLoader& loader, Study* study) {
   const auto constraints = study_value.find("constraints");
   if (!constraints) return;
+  // A table of its own, since reading a constraint must not mark its parameters as used: a
+  // constraint moves nothing.
   const ParameterTable table(study->parameters);
+  const EntryContext in{robot, table, loader, *study};
   for (const YamlValue& item : constraints->items()) {
     if (bounded_measure(item) || is_linear_item(item)) continue;
     if (item.is_list() || (item.is_map() && !item.find("expression")))
       item.fail("not a constraint", kFormsOfConstraints);
     if (item.is_map())
-      read_bounded_expression(item, table, study);
+      read_bounded_expression(item, in, study);
     else
       study->constraints.push_back(
           parse_constraint(item.text(), table.names, item.where(), item.path()));

@@ -5,6 +5,7 @@
 #include "reading/parameter_table.h"
 #include "reading/study/study_blocks.h"
 #include "reading/study/study_options.h"
+#include "reading/study/study_values.h"
 #include "reading/yaml/yaml_reader.h"
 
 namespace codesign {
@@ -73,7 +74,7 @@ Study read_single_run(const YamlValue& root, const std::string& file, const Robo
     at.fail("too many parameters to tune: " + std::to_string(study.tuned.size()),
             "at most " + std::to_string(kMostTuned));
   }
-  read_constraints(root, &study);
+  read_constraints(root, robot, loader, &study);
   const ParameterTable table(study.parameters);
   if (study.postures > 0)
     study.duration = study.postures - 1.0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/arrays.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "text/nearest_name.h"
@@ -82,76 +83,114 @@ void read_columns(const YamlValue& columns, const RobotDescription& robot,
     columns.fail("no column of a joint", "JOINT/position: COLUMN, JOINT/velocity or JOINT/effort");
 }
 
-void read_bag(const YamlValue& value, RecordingDescription* recording) {
-  value.require_keys({"bag", "topic"}, {"from", "to", "gaps", "start", "set", "stamp"});
-  recording->is_bag = true;
-  recording->file = value.at("bag").text();
-  recording->topic = value.at("topic").text();
-  OptionReader{value}("stamp", kStampNames, recording->stamp);
+/// What recordings are read with.
+struct RecordingContext {
+  const RobotDescription& robot;
+  const Study& study;
+};
+using RecordingKeys = EntryKeys<RecordingDescription, RecordingContext>;
+using RecordingKey = EntryKey<RecordingDescription, RecordingContext>;
+
+RecordingKey text_key(const char* name, bool is_required,
+                      std::string RecordingDescription::*member) {
+  return {name, is_required,
+          [member](const YamlValue& value, const RecordingContext&,
+                   RecordingDescription* recording) { recording->*member = value.text(); }};
+}
+RecordingKey number_key(const char* name, double RecordingDescription::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const RecordingContext&,
+                   RecordingDescription* recording) { recording->*member = value.number(); }};
+}
+template <class Option, std::size_t N>
+RecordingKey choice_key(const char* name, const std::array<const char*, N>& names,
+                        Option RecordingDescription::*member) {
+  return {name, false,
+          [name, &names, member](const YamlValue& value, const RecordingContext&,
+                                 RecordingDescription* recording) {
+            recording->*member = read_choice(value, name, names, recording->*member);
+          }};
 }
 
-void read_table(const YamlValue& value, const RobotDescription& robot,
-                RecordingDescription* recording) {
-  value.require_keys({"csv"}, {"columns", "delimiter", "from", "to", "gaps", "start", "set"});
-  recording->file = value.at("csv").text();
-  OptionReader{value}("delimiter", kCellDelimiterNames, recording->delimiter);
-  if (const auto columns = value.find("columns")) read_columns(*columns, robot, recording);
-}
-
-void read_start_positions(const YamlValue& starts, const RobotDescription& robot,
+void read_start_positions(const YamlValue& starts, const RecordingContext& in,
                           RecordingDescription* recording) {
   for (const auto& [name, value] : starts.entries()) {
     StartPosition start;
-    start.joint = scalar_joint(name, robot, value).name;
+    start.joint = scalar_joint(name, in.robot, value).name;
     read_fitted(value, -std::numeric_limits<double>::infinity(), &start.position);
     recording->starts.push_back(start);
   }
 }
 
 /// Values of parameters in this recording, which the study does not tune.
-std::vector<RecordedSetting> read_settings(const YamlValue& set, const Study& study) {
-  std::vector<RecordedSetting> settings;
+void read_settings(const YamlValue& set, const RecordingContext& in,
+                   RecordingDescription* recording) {
   for (const auto& [name, value] : set.entries()) {
-    const int index = untuned_parameter(name, study, value);
-    settings.push_back({index, read_within_bounds(value, study.parameters[to_index(index)])});
+    const int index = untuned_parameter(name, in.study, value);
+    recording->settings.push_back(
+        {index, read_within_bounds(value, in.study.parameters[to_index(index)])});
   }
-  return settings;
 }
 
-RecordingDescription read_recording(const YamlValue& value, const RobotDescription& robot,
-                                    const Study& study) {
+/// The keys of both kinds of files after those of one kind.
+RecordingKeys with_common_keys(RecordingKeys keys) {
+  return with(std::move(keys),
+              RecordingKeys{number_key("from", &RecordingDescription::from),
+                            number_key("to", &RecordingDescription::to),
+                            choice_key("gaps", kGapRuleNames, &RecordingDescription::gaps),
+                            {"start", false, read_start_positions},
+                            {"set", false, read_settings}});
+}
+
+const RecordingKeys& bag_keys() {
+  static const RecordingKeys kKeys =
+      with_common_keys({text_key("bag", true, &RecordingDescription::file),
+                        text_key("topic", true, &RecordingDescription::topic),
+                        choice_key("stamp", kStampNames, &RecordingDescription::stamp)});
+  return kKeys;
+}
+
+const RecordingKeys& table_keys() {
+  static const RecordingKeys kKeys = with_common_keys(
+      {text_key("csv", true, &RecordingDescription::file),
+       choice_key("delimiter", kCellDelimiterNames, &RecordingDescription::delimiter),
+       {"columns", false,
+        [](const YamlValue& value, const RecordingContext& in, RecordingDescription* of) {
+          read_columns(value, in.robot, of);
+        }}});
+  return kKeys;
+}
+
+RecordingDescription read_recording(const YamlValue& value, const RecordingContext& in) {
   if (!value.is_map())
     value.fail("not a recording",
                "{bag: FILE, topic: NAME} or {csv: FILE, columns: {time: COLUMN, ...}}");
   RecordingDescription recording;
   recording.element = value.path();
   recording.where = value.where();
-  const bool is_bag = value.find("bag").has_value();
-  if (is_bag == value.find("csv").has_value())
+  recording.is_bag = value.find("bag").has_value();
+  if (recording.is_bag == value.find("csv").has_value())
     value.fail("a recording is one file", "either bag: FILE with topic: NAME, or csv: FILE");
-  if (is_bag)
-    read_bag(value, &recording);
-  else
-    read_table(value, robot, &recording);
-  const auto from = value.find("from"), to = value.find("to");
-  if (from) recording.from = from->number();
-  if (to) recording.to = to->number();
+  read_entry(value, recording.is_bag ? bag_keys() : table_keys(), in, &recording);
   if (!(recording.from < recording.to))
-    (to ? *to : *from).fail("the part to use ends before it begins", "from < to");
-  OptionReader{value}("gaps", kGapRuleNames, recording.gaps);
-  if (const auto starts = value.find("start")) read_start_positions(*starts, robot, &recording);
-  if (const auto set = value.find("set")) recording.settings = read_settings(*set, study);
+    value.find("to")
+        .value_or(value.find("from").value_or(value))
+        .fail("the part to use ends before it begins", "from < to");
   return recording;
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_recordings() {
+  return {{"identify.data[]", bag_keys()}, {"identify.data[]", table_keys()}};
+}
 
 std::vector<RecordingDescription> read_recording_list(const YamlValue& list,
                                                       const RobotDescription& robot,
                                                       const Study& study) {
   std::vector<RecordingDescription> recordings;
   for (const YamlValue& item : list.items())
-    recordings.push_back(read_recording(item, robot, study));
+    recordings.push_back(read_recording(item, RecordingContext{robot, study}));
   if (recordings.empty())
     list.fail("no recording", "at least one {bag: FILE, topic: NAME} or {csv: FILE}");
   return recordings;

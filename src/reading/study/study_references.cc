@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "description/formula.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 #include "recordings/number_table.h"
@@ -15,22 +16,42 @@
 namespace codesign {
 namespace {
 
+/// What functions of time are read with.
+struct ReferenceContext {
+  const ParameterTable& table;
+};
+using FunctionKeys = EntryKeys<ReferenceDescription, ReferenceContext>;
+
+EntryKey<ReferenceDescription, ReferenceContext> sine_key(const char* name, bool is_required,
+                                                          Quantity SineDescription::*member) {
+  return {name, is_required,
+          [member](const YamlValue& value, const ReferenceContext& in, ReferenceDescription* of) {
+            of->sine.*member = read_quantity(value, in.table);
+          }};
+}
+
+const FunctionKeys& sine_keys() {
+  static const FunctionKeys kKeys{required_key<ReferenceDescription, ReferenceContext>("type"),
+                                  sine_key("amplitude", true, &SineDescription::amplitude),
+                                  sine_key("frequency", false, &SineDescription::frequency),
+                                  sine_key("period", false, &SineDescription::frequency),
+                                  sine_key("phase", false, &SineDescription::phase),
+                                  sine_key("offset", false, &SineDescription::offset)};
+  return kKeys;
+}
+
 ReferenceDescription read_sine(const YamlValue& value, const ParameterTable& table) {
-  value.require_keys({"type", "amplitude"}, {"frequency", "period", "phase", "offset"});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kSine;
+  read_entry(value, sine_keys(), ReferenceContext{table}, &reference);
   SineDescription& sine = reference.sine;
-  sine.amplitude = read_quantity(value.at("amplitude"), table);
   const auto frequency = value.find("frequency"), period = value.find("period");
   if (frequency.has_value() == period.has_value())
     value.fail("a sine has either a frequency or a period", "frequency [Hz] or period [s]");
   sine.is_period = period.has_value();
   const YamlValue& pace = frequency ? *frequency : *period;
-  sine.frequency = read_quantity(pace, table);
   if (!(sine.frequency.nominal() > 0.0))
     pace.fail("not above zero", frequency ? "more than 0 Hz" : "more than 0 s");
-  if (const auto phase = value.find("phase")) sine.phase = read_quantity(*phase, table);
-  if (const auto offset = value.find("offset")) sine.offset = read_quantity(*offset, table);
   return reference;
 }
 
@@ -56,17 +77,19 @@ void check_times(const std::vector<double>& times, const YamlValue& value) {
           "each time above the one before it");
 }
 
-std::vector<Quantity> read_list(const YamlValue& value, const std::string& key, std::size_t count,
-                                const ParameterTable& table) {
-  std::vector<Quantity> list;
-  const auto items = value.find(key);
-  if (!items) return list;
-  for (const YamlValue& item : items->items()) list.push_back(read_quantity(item, table));
-  if (list.size() != count)
-    items->fail(
-        "found " + std::to_string(list.size()) + " values for " + std::to_string(count) + " times",
-        "one per time");
-  return list;
+/// A list with one value for each time.
+EntryKey<ReferenceDescription, ReferenceContext> list_key(
+    const char* name, bool is_required, std::vector<Quantity> WaypointsDescription::*member) {
+  return {name, is_required,
+          [member](const YamlValue& value, const ReferenceContext& in, ReferenceDescription* of) {
+            std::vector<Quantity>& list = of->waypoints.*member;
+            for (const YamlValue& item : value.items())
+              list.push_back(read_quantity(item, in.table));
+            if (list.size() != of->waypoints.times.size())
+              value.fail("found " + std::to_string(list.size()) + " values for " +
+                             std::to_string(of->waypoints.times.size()) + " times",
+                         "one per time");
+          }};
 }
 
 bool is_of_fifth_degree(Interpolation interpolation) {
@@ -83,20 +106,30 @@ void refuse_unused(const YamlValue& value, Interpolation interpolation) {
                         "monotone, quintic");
 }
 
+const FunctionKeys& waypoint_keys() {
+  using Of = WaypointsDescription;
+  static const FunctionKeys kKeys{
+      required_key<ReferenceDescription, ReferenceContext>("type"),
+      optional_key<ReferenceDescription, ReferenceContext>("interpolation"),
+      required_key<ReferenceDescription, ReferenceContext>(
+          "times",
+          [](const YamlValue& value, const ReferenceContext&, ReferenceDescription* of) {
+            for (const YamlValue& item : value.items())
+              of->waypoints.times.push_back(item.number());
+            check_times(of->waypoints.times, value);
+          }),
+      list_key("positions", true, &Of::positions),
+      list_key("velocities", false, &Of::velocities),
+      list_key("accelerations", false, &Of::accelerations)};
+  return kKeys;
+}
+
 ReferenceDescription read_waypoints(const YamlValue& value, const ParameterTable& table) {
-  value.require_keys({"type", "times", "positions"},
-                     {"velocities", "accelerations", "interpolation"});
   ReferenceDescription reference;
   reference.kind = ReferenceDescription::Kind::kWaypoints;
-  WaypointsDescription& points = reference.waypoints;
-  points.interpolation = read_interpolation(value);
-  refuse_unused(value, points.interpolation);
-  const YamlValue times = value.at("times");
-  for (const YamlValue& item : times.items()) points.times.push_back(item.number());
-  check_times(points.times, times);
-  points.positions = read_list(value, "positions", points.times.size(), table);
-  points.velocities = read_list(value, "velocities", points.times.size(), table);
-  points.accelerations = read_list(value, "accelerations", points.times.size(), table);
+  read_entry(value, waypoint_keys(), ReferenceContext{table}, &reference);
+  reference.waypoints.interpolation = read_interpolation(value);
+  refuse_unused(value, reference.waypoints.interpolation);
   return reference;
 }
 

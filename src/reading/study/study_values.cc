@@ -10,6 +10,7 @@
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
 #include "mechanism/signal_catalog.h"
+#include "reading/study/entry_keys.h"
 #include "text/nearest_name.h"
 
 namespace codesign {
@@ -165,24 +166,12 @@ const JointDescription& scalar_joint(const std::string& name, const RobotDescrip
   throw unknown_name(at.where(), at.path(), "joint", name, known);
 }
 
-Between read_between(const YamlValue& value, const ParameterTable& table) {
-  const auto between = value.find("between"), at_least = value.find("at_least"),
-             at_most = value.find("at_most");
-  if (between ? at_least || at_most : !at_least && !at_most)
-    value.fail("a constraint needs bounds, either by between or by at_least and at_most",
+void require_bounds(const YamlValue& entry) {
+  const bool has_lower = entry.find("at_least").has_value(),
+             has_upper = entry.find("at_most").has_value();
+  if (entry.find("between") ? has_lower || has_upper : !has_lower && !has_upper)
+    entry.fail("a constraint needs bounds, either by between or by at_least and at_most",
                "between: [lower, upper]; or at_least, at_most or both");
-  Between bounds;
-  if (between) {
-    const std::vector<YamlValue> items = between->items();
-    if (items.size() != 2)
-      between->fail("two bounds are needed, found " + std::to_string(items.size()),
-                    "[lower, upper]");
-    bounds.lower = read_quantity(items[0], table);
-    bounds.upper = read_quantity(items[1], table);
-  }
-  if (at_least) bounds.lower = read_quantity(*at_least, table);
-  if (at_most) bounds.upper = read_quantity(*at_most, table);
-  return bounds;
 }
 
 }  // namespace codesign

@@ -62,13 +62,4 @@ QuantityVector read_vector(const YamlValue& value, const ParameterTable& table);
 const JointDescription& scalar_joint(const std::string& name, const RobotDescription& robot,
                                      const YamlValue& at);
 
-/// The bounds of a constraint, at least one of them.
-struct Between {
-  std::optional<Quantity> lower, upper;
-};
-
-/// Reads `between: [lower, upper]`, or `at_least` and `at_most` or one of these. Their order is not
-/// checked. @throws InputError
-Between read_between(const YamlValue& value, const ParameterTable& table);
-
 }  // namespace codesign

@@ -2,7 +2,6 @@
 #include "reading/study/study_blocks.h"
 
 #include "description/study.h"
-#include "reading/page_rows.h"
 #include "reading/study/study_fixture.h"
 
 namespace codesign {
@@ -15,14 +14,6 @@ std::string realization_text(const std::string& keys,
          "crank_joint/velocity, setpoint: 0, output: "
          "crank_joint, gains: " +
          gains + ", " + keys + "}\n";
-}
-
-TEST(StudyRealization, HasTheKeysOfThePage) {
-  std::set<std::string> page;
-  for (const PageRow& row : study_rows()) page.insert(row.keys.begin(), row.keys.end());
-  for (const ControllerKind& kind : standard_laws().controllers)
-    for (const std::string& key : with_realization_keys(kind, {}))
-      EXPECT_EQ(page.count(key), 1U) << key;
 }
 
 TEST(StudyRealization, ReadsEveryKey) {

@@ -57,23 +57,5 @@ TEST(StudyValues, FindsParametersThatAreNotTuned) {
   EXPECT_THROW(read_within_bounds(at.at("short"), study.parameters[1]), InputError);
 }
 
-Between bounds_in(const std::string& text) {
-  return read_between(YamlValue::parse({"study.yaml", text}),
-                      ParameterTable({{"a", 2.0, 0.0, 5.0, "", {}}}));
-}
-
-TEST(StudyBetween, ReadsOneOrTwoBounds) {
-  EXPECT_EQ(bounds_in("between: [-1, \"${3*a}\"]").lower->nominal(), -1.0);
-  EXPECT_EQ(bounds_in("between: [-1, \"${3*a}\"]").upper->nominal(), 6.0);
-  EXPECT_EQ(bounds_in("at_least: 1").lower->nominal(), 1.0);
-  EXPECT_FALSE(bounds_in("at_least: 1").upper);
-  EXPECT_EQ(bounds_in("{at_least: 1, at_most: 4}").upper->nominal(), 4.0);
-}
-
-TEST(StudyBetween, NeedsThemInOneForm) {
-  for (const char* text : {"{}", "{between: [1, 2], at_most: 3}", "{between: [1]}", "{at_most: b}"})
-    EXPECT_THROW(bounds_in(text), InputError) << text;
-}
-
 }  // namespace
 }  // namespace codesign
