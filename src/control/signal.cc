@@ -147,13 +147,10 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
     if (is_of_mechanism(term)) {
       reference.kind = kind_of(SignalOwner::kMechanism, term);
       reference.axis = axis_of(term.component);
-    } else if (const auto spring = find_named(robot.spring_dampers, term.object);
-               spring && is_of_spring(term)) {
-      reference.kind = kind_of(SignalOwner::kSpring, term);
-      reference.spring = *spring;
-    } else if (is_of_contact(term, robot)) {
-      reference.kind = kind_of(SignalOwner::kContact, term);
-      reference.contact = find_named(robot.contacts, term.object).value();
+    } else if (const auto element = find_link_element(term, robot)) {
+      reference.kind = kind_of(element->kind, term);
+      (element->kind == SignalOwner::kSpring ? reference.spring : reference.contact) =
+          element->index;
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference.kind = kind_of(SignalOwner::kController, term);
       reference.controller = *controller;

@@ -3,10 +3,10 @@
 
 #include "description/signal_table.h"
 #include "elements/body.h"
-#include "elements/body_contact.h"
 #include "elements/contact.h"
 #include "elements/elastic_gear.h"
 #include "elements/joint_load.h"
+#include "elements/link_elements.h"
 #include "elements/loads.h"
 #include "elements/state_view.h"
 #include "forces/compliance.h"
@@ -46,15 +46,10 @@ T total_power(const StateView<T>& view, PowerKind kind) {
   if (kind == PowerKind::kActuator) sum += drive_power(view, -1, -1);
   if (kind == PowerKind::kFriction)
     for (int pair : view.system.contacts()) sum -= contact_at(view, pair).power();
-  if (kind == PowerKind::kDamping || kind == PowerKind::kFriction)
-    for (std::size_t k = 0; k < view.design.constants.contacts.size(); ++k)
-      sum += body_contact_power(view, kind, k);
-  if (kind == PowerKind::kDamping) {
-    for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
-      sum += spring_power(view, k);
+  add_link_element_power(view, kind, &sum);
+  if (kind == PowerKind::kDamping)
     for (std::size_t k = 0; k < view.system.elastic_gears().size(); ++k)
       sum += elastic_power(view, static_cast<int>(k));
-  }
   if (kind == PowerKind::kLoad)
     for (std::size_t k = 0; k < view.system.link_loads().size(); ++k)
       sum += link_load_power(view, k);
@@ -62,7 +57,7 @@ T total_power(const StateView<T>& view, PowerKind kind) {
 }
 
 /// The power of one kind in one joint and its motor: a pair and the index in its chain.
-/// Spring-dampers, contacts and loads on links belong to no joint.
+/// Elements between links and loads on links belong to no joint.
 template <class T>
 T joint_power(const StateView<T>& view, PowerKind kind, int pair, int element) {
   const Pair& p = view.pair(pair);
@@ -133,8 +128,8 @@ T kinetic_energy(const StateView<T>& view) {
   return energy;
 }
 
-/// V of (14b): gravity (zero at the root's origin), spring-dampers, contacts, torsion springs,
-/// stops and elastic gears.
+/// V of (14b): gravity (zero at the root's origin), elements between links, torsion springs, stops
+/// and elastic gears.
 template <class T>
 T potential_energy(const StateView<T>& view) {
   T energy(0.0);
@@ -142,10 +137,7 @@ T potential_energy(const StateView<T>& view) {
     const T& mass = view.design.constants.bodies[to_index(b)].mass;
     energy -= mass * dot<T>(view.design.gravity, view.body(b).r);
   }
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
-    energy += spring_energy_at(view, k);
-  for (std::size_t k = 0; k < view.design.constants.contacts.size(); ++k)
-    energy += body_contact_energy(view, k);
+  add_link_element_energy(view, &energy);
   for (const JointLoad& load : view.system.loads()) energy += joint_energy(view, load);
   for (std::size_t k = 0; k < view.system.elastic_gears().size(); ++k)
     energy += elastic_energy(view, static_cast<int>(k));

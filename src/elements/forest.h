@@ -4,9 +4,9 @@
 #include <cassert>
 
 #include "elements/body.h"
-#include "elements/body_contact.h"
 #include "elements/contact.h"
 #include "elements/joint_load.h"
+#include "elements/link_elements.h"
 #include "elements/loads.h"
 #include "elements/pair.h"
 #include "elements/state_view.h"
@@ -20,16 +20,13 @@ namespace codesign {
 // and the back sweep does nothing.
 
 /// Adds to G and to the workspace what acts on bodies: rows and multipliers of cut pairs and
-/// couplings, spring-dampers, contacts of bodies, loads on links, inertia of free bodies, rotors,
-/// loads and contacts of cut pairs. @param G zero. @param workspace cleared.
+/// couplings, elements between links, loads on links, inertia of free bodies, rotors, loads and
+/// contacts of cut pairs. @param G zero. @param workspace cleared.
 template <class T>
 void load_bodies(const StateView<T>& view, Workspace<T>* workspace, VectorX<T>* G) {
   const System& system = view.system;
   for (std::size_t k = 0; k < view.design.rows.size(); ++k) pair_residual(view, workspace, k, G);
-  for (std::size_t k = 0; k < view.design.constants.springs.size(); ++k)
-    add_spring_load(view, workspace, k, spring_at(view, k));
-  for (std::size_t k = 0; k < view.design.constants.contacts.size(); ++k)
-    add_body_contact(view, workspace, k);
+  add_link_elements(view, workspace);
   for (std::size_t k = 0; k < system.link_loads().size(); ++k) add_link_load(view, workspace, k);
   for (int b = 0; b < view.layout.bodies; ++b) body_residual(view, workspace, to_index(b), G);
   for (std::size_t k = 0; k < system.link_loads().size(); ++k)

@@ -8,20 +8,18 @@
 
 namespace codesign {
 
-ContactWatch::ContactWatch(const CompiledSystem& system) : system_(system) { start(); }
+ContactWatch::ContactWatch(const CompiledSystem& system)
+    : system_(system), deepest_(system.robot().contacts.size()) {}
 
 void ContactWatch::start() { deepest_.assign(system_.robot().contacts.size(), {}); }
 
-void ContactWatch::look(const State<double>& state, Equations<double>* equations) {
-  if (deepest_.empty()) return;
-  equations->formulas().load(state);
-  const StateView<double>& view = equations->formulas().view();
+void ContactWatch::look(const Formulas<double>& formulas, double t) {
+  const StateView<double>& view = formulas.view();
   for (std::size_t k = 0; k < deepest_.size(); ++k) {
     const double overlap = -nearest_point(view, static_cast<int>(k)).gap;
     if (!(overlap > deepest_[k].overlap)) continue;
-    deepest_[k] = {overlap,
-                   smaller_extent(system_.robot().contacts[k], view.design.constants.contacts[k]),
-                   state.t};
+    deepest_[k] = {
+        overlap, smaller_extent(system_.robot().contacts[k], view.design.constants.contacts[k]), t};
   }
 }
 

@@ -4,22 +4,20 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
-#include "equations/equations.h"
-#include "mechanism_codesign/warning.h"
+#include "integration/step_watch.h"
 
 namespace codesign {
 
 /// Finds the contacts of a run whose shapes overlap by more than kDeepOverlap of the smaller one.
-/// It looks at the end of every step, since an impact is shorter than the distance of samples.
-class ContactWatch {
+class ContactWatch : public StepWatch {
  public:
   explicit ContactWatch(const CompiledSystem& system);
 
-  void start();
-  /// To be called after each step. @param equations hold the design.
-  void look(const State<double>& state, Equations<double>* equations);
+  bool has_work() const override { return !deepest_.empty(); }
+  void start() override;
+  void look(const Formulas<double>& formulas, double t) override;
   /// A warning `deep_penetration` for each such contact, with the deepest penetration.
-  Warnings warnings() const;
+  Warnings warnings() const override;
 
  private:
   struct Deepest {

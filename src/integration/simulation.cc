@@ -6,6 +6,7 @@
 
 #include "assembly/assembly.h"
 #include "equations/compiled_system.h"
+#include "equations/formulas.h"
 #include "integration/contact_watch.h"
 #include "integration/event_names.h"
 #include "integration/integrator.h"
@@ -40,14 +41,15 @@ class Simulation::Implementation {
         integrator_(make_integrator(*system_)),
         stops_(*system_),
         contacts_(*system_) {
+    for (StepWatch* const watch : std::initializer_list<StepWatch*>{&stops_, &contacts_})
+      if (watch->has_work()) watches_.push_back(watch);
     sample_.resize(system_->layout());
   }
 
   Status start() {
     const CpuTimer timer;
     const Status status = integrator_->start(parameters_);
-    stops_.start();
-    contacts_.start();
+    for (StepWatch* const watch : watches_) watch->start();
     statistics_ = integrator_->statistics();
     statistics_.cpu_seconds += timer.seconds();
     return status;
@@ -118,17 +120,18 @@ class Simulation::Implementation {
   const std::vector<StopExcess>& stops() const { return stops_.excesses(); }
   const Warnings& warnings() const {
     warnings_ = integrator_->warnings();
-    append(contacts_.warnings(), &warnings_);
+    for (const StepWatch* const watch : watches_) append(watch->warnings(), &warnings_);
     return warnings_;
   }
 
  private:
   Status step(double limit) {
     Status status = integrator_->advance(limit);
-    if (status.ok()) {
-      stops_.look(integrator_->state(), &integrator_->equations());
-      contacts_.look(integrator_->state(), &integrator_->equations());
-    }
+    if (!status.ok() || watches_.empty()) return status;
+    const State<double>& state = integrator_->state();
+    Formulas<double>& formulas = integrator_->equations().formulas();
+    formulas.load(state);
+    for (StepWatch* const watch : watches_) watch->look(formulas, state.t);
     return status;
   }
   /// Rounding may leave the end of a step, or an instant of a controller, a last bit before `time`.
@@ -148,6 +151,7 @@ class Simulation::Implementation {
   std::unique_ptr<Integrator> integrator_;
   StopWatch stops_;
   ContactWatch contacts_;
+  std::vector<StepWatch*> watches_;  ///< those of these that have work
   State<double> sample_;
   Statistics statistics_;
   mutable Warnings warnings_;

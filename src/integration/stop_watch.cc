@@ -15,17 +15,16 @@ StopWatch::StopWatch(const CompiledSystem& system) : system_(system) {
                            [](const JointLoad& load) { return load.find<StopLoad>() != nullptr; });
 }
 
-void StopWatch::look(const State<double>& state, Equations<double>* equations) {
-  if (!has_stops_) return;
-  equations->formulas().load(state);
+void StopWatch::look(const Formulas<double>& formulas, double t) {
   for (const JointLoad& load : system_.loads()) {
     if (!load.find<StopLoad>()) continue;
     const JointDynamicsConstants<double>& d =
-        equations->constants().pairs[to_index(load.pair)].dynamics[to_index(load.element)];
-    const double position = equations->formulas().coordinate(load.pair, load.element).position,
+        formulas.view().design.constants.pairs[to_index(load.pair)].dynamics[to_index(
+            load.element)];
+    const double position = formulas.coordinate(load.pair, load.element).position,
                  margin = kStopGivesWay * (d.upper - d.lower);
-    if (position > d.upper + margin) note(load, true, d.upper, position, state.t);
-    if (position < d.lower - margin) note(load, false, d.lower, position, state.t);
+    if (position > d.upper + margin) note(load, true, d.upper, position, t);
+    if (position < d.lower - margin) note(load, false, d.lower, position, t);
   }
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "equations/compiled_system.h"
-#include "equations/equations.h"
+#include "integration/step_watch.h"
 #include "mechanism_codesign/simulation.h"
 
 namespace codesign {
@@ -13,14 +13,13 @@ namespace codesign {
 constexpr double kStopGivesWay = 0.02;
 
 /// Finds the stops of a run, theory (13d), that give way by more than kStopGivesWay of their range.
-/// It looks at the end of every step, since an impact is shorter than the distance of samples.
-class StopWatch {
+class StopWatch : public StepWatch {
  public:
   explicit StopWatch(const CompiledSystem& system);
 
-  void start() { excesses_.clear(); }
-  /// To be called after each step. @param equations hold the design.
-  void look(const State<double>& state, Equations<double>* equations);
+  bool has_work() const override { return has_stops_; }
+  void start() override { excesses_.clear(); }
+  void look(const Formulas<double>& formulas, double t) override;
   /// In the order in which they gave way.
   const std::vector<StopExcess>& excesses() const { return excesses_; }
 

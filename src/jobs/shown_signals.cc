@@ -95,8 +95,8 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
   if (signal.formula) return "";
   const SignalTerm& term = signal.terms.front();
   if (is_of_mechanism(term)) return find_quantity(SignalOwner::kMechanism, term.quantity)->unit;
-  if (is_of_contact(term, robot)) return find_quantity(SignalOwner::kContact, term.quantity)->unit;
-  if (is_of_spring(term)) return find_quantity(SignalOwner::kSpring, term.quantity)->unit;
+  if (const auto element = find_link_element(term, robot))
+    return find_quantity(element->kind, term.quantity)->unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
     const SignalFacts* facts = find_quantity(SignalOwner::kController, term.quantity);
     return unit_of(*facts, find_named(robot.joints, controller->output),

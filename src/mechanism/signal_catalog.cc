@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/link_elements.h"
 #include "mechanism/signal_axes.h"
 #include "mechanism/topology.h"
 #include "text/nearest_name.h"
@@ -63,10 +64,10 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
   }
   for (const LinkDescription& link : robot.links)
     if (link.name == name) add_quantities(SignalOwner::kLink, always, &offer);
-  for (const SpringDamperDescription& spring : robot.spring_dampers)
-    if (spring.name == name) add_quantities(SignalOwner::kSpring, always, &offer);
-  for (const ContactDescription& contact : robot.contacts)
-    if (contact.name == name) add_quantities(SignalOwner::kContact, always, &offer);
+  for_each_link_element_kind(robot, [&](const LinkElementKind& kind, const auto& elements) {
+    for (const auto& element : elements)
+      if (element.name == name) add_quantities(kind.owner, always, &offer);
+  });
   if (name == kMechanism) add_quantities(SignalOwner::kMechanism, always, &offer);
   return offer;
 }
@@ -77,10 +78,20 @@ Names all_names(const RobotDescription& robot,
   for (const JointDescription& joint : robot.joints) names.push_back(joint.name);
   for (const ControllerDescription& controller : controllers) names.push_back(controller.name);
   for (const LinkDescription& link : robot.links) names.push_back(link.name);
-  for (const SpringDamperDescription& spring : robot.spring_dampers) names.push_back(spring.name);
-  for (const ContactDescription& contact : robot.contacts) names.push_back(contact.name);
+  for_each_link_element_kind(robot, [&](const LinkElementKind&, const auto& elements) {
+    for (const auto& element : elements) names.push_back(element.name);
+  });
   names.emplace_back(kMechanism);
   return names;
+}
+
+/// What has signals: "joint, link, spring, contact or controller".
+std::string words_of_owners(const RobotDescription& robot) {
+  std::string words = "joint, link";
+  for_each_link_element_kind(robot, [&words](const LinkElementKind& kind, const auto&) {
+    words += std::string(", ") + kind.word;
+  });
+  return words + " or controller";
 }
 
 Names spelled(const std::string& object, const Offer& offer) {
@@ -146,15 +157,17 @@ bool is_of_mechanism(const SignalTerm& term) {
   return facts != nullptr && (facts->shape == SignalShape::kScalar) == term.component.empty();
 }
 
-bool is_of_spring(const SignalTerm& term) {
-  return find_quantity(SignalOwner::kSpring, term.quantity) != nullptr;
-}
-
-bool is_of_contact(const SignalTerm& term, const RobotDescription& robot) {
-  return find_quantity(SignalOwner::kContact, term.quantity) != nullptr &&
-         std::any_of(
-             robot.contacts.begin(), robot.contacts.end(),
-             [&](const ContactDescription& contact) { return contact.name == term.object; });
+std::optional<LinkElement> find_link_element(const SignalTerm& term,
+                                             const RobotDescription& robot) {
+  std::optional<LinkElement> found;
+  for_each_link_element_kind(robot, [&](const LinkElementKind& kind, const auto& elements) {
+    if (found || find_quantity(kind.owner, term.quantity) == nullptr) return;
+    const auto element = std::find_if(elements.begin(), elements.end(),
+                                      [&](const auto& one) { return one.name == term.object; });
+    if (element != elements.end())
+      found = LinkElement{kind.owner, static_cast<int>(element - elements.begin())};
+  });
+  return found;
 }
 
 bool is_reaction(const SignalTerm& term) {
@@ -168,8 +181,8 @@ void check_signal(const SignalDescription& signal, const RobotDescription& robot
   for (const SignalTerm& term : signal.terms) {
     const Offer offer = offer_of(term.object, robot, controllers);
     if (!offer.exists)
-      throw unknown_name(signal.where, element, "joint, link, spring, contact or controller",
-                         term.object, all_names(robot, controllers));
+      throw unknown_name(signal.where, element, words_of_owners(robot), term.object,
+                         all_names(robot, controllers));
     check_term(term, offer, signal.where, element);
   }
   check_axes(signal, robot, element);

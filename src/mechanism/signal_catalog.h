@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,14 @@ namespace codesign {
 /// quantity distinguishes it from a joint, link or controller named `mechanism`; check_signal()
 /// rejects the terms that stay ambiguous.
 bool is_of_mechanism(const SignalTerm& term);
-/// Whether a term is a quantity of a spring-damper: no other object has one of these.
-bool is_of_spring(const SignalTerm& term);
-/// Whether a term is a quantity of a contact. No joint, link, loop or spring-damper has the name of
-/// a contact.
-bool is_of_contact(const SignalTerm& term, const RobotDescription& robot);
+/// An element between two links, for_each_link_element_kind().
+struct LinkElement {
+  SignalOwner kind;
+  int index;  ///< in the list of its kind in RobotDescription
+};
+/// The element between links that a term is a quantity of: one has the name of the object, and its
+/// kind the quantity.
+std::optional<LinkElement> find_link_element(const SignalTerm& term, const RobotDescription& robot);
 /// Whether a term is a reaction force or torque of a joint. The quantity distinguishes the joint
 /// from a link of the same name.
 bool is_reaction(const SignalTerm& term);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "description/link_elements.h"
 #include "description/robot.h"
 
 namespace codesign {
@@ -113,8 +114,9 @@ void add_link_rules(std::vector<ElementRule>* rules) {
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
-  rules.push_back(Rule("robot").children(
-      {"codesign:parameter", "codesign:set", "codesign:spring_damper", "codesign:contact"}));
+  Names of_robot{"codesign:parameter", "codesign:set"};
+  for (const std::string& tag : link_element_tags()) of_robot.push_back(tag);
+  rules.push_back(Rule("robot").children(of_robot));
   rules.push_back(
       Rule("robot/codesign:parameter").strict().plain({"name", "value", "lower", "upper", "unit"}));
   rules.push_back(Rule("robot/codesign:set").strict().plain({"name", "value", "lower", "upper"}));

@@ -162,21 +162,20 @@ void read_loss(const XmlElement& element, const ReadContext& context, ContactDes
 
 }  // namespace
 
-ContactDescription read_contact(const XmlElement& element, const ReadContext& context) {
-  ContactDescription contact;
-  contact.where = element.where();
-  contact.name = element.text("name");
-  read_ends(element, context, &contact);
-  contact.model = read_law(element, *context.laws);
-  read_stiffness(element, context, &contact);
-  read_loss(element, context, &contact);
+void read_link_element(const XmlElement& element, const ReadContext& context,
+                       ContactDescription* contact) {
+  contact->where = element.where();
+  contact->name = element.text("name");
+  read_ends(element, context, contact);
+  contact->model = read_law(element, *context.laws);
+  read_stiffness(element, context, contact);
+  read_loss(element, context, contact);
   const auto friction = element.child("codesign:friction");
-  if (!friction) return contact;
-  contact.friction = read_friction(*friction, {0.0, 0.0, 1.0}, context);
-  if (contact.friction->model->bristle)
+  if (!friction) return;
+  contact->friction = read_friction(*friction, {0.0, 0.0, 1.0}, context);
+  if (contact->friction->model->bristle)
     friction->fail_at("model", "friction laws with states are not available where bodies touch",
                       "brown_mcphee or stribeck");
-  return contact;
 }
 
 }  // namespace codesign

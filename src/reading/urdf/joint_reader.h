@@ -37,9 +37,16 @@ FrictionDescription read_friction(const XmlElement& element, const QuantityVecto
 ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context);
 
-/// Reads one `<codesign:contact>`: shapes, normal force and friction; theory (13k) to (13m).
-/// @throws InputError for shapes that cannot touch each other, naming those that can.
-ContactDescription read_contact(const XmlElement& element, const ReadContext& context);
+// An overload for each kind of elements between links, for_each_link_element_kind(). All throw
+// InputError.
+
+/// Reads one `<codesign:spring_damper>`; theory (13b).
+void read_link_element(const XmlElement& element, const ReadContext& context,
+                       SpringDamperDescription* spring);
+/// Reads one `<codesign:contact>`: shapes, normal force and friction; theory (13k) to (13m). Shapes
+/// that cannot touch each other are an error, which names those that can.
+void read_link_element(const XmlElement& element, const ReadContext& context,
+                       ContactDescription* contact);
 
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);

@@ -10,6 +10,7 @@
 #include "math/arrays.h"
 #include "reading/urdf/quantity_reader.h"
 #include "reading/urdf/urdf_reader.h"
+#include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -86,10 +87,8 @@ class Merger {
     const std::string tag = patch.tag();
     const bool known = is_annotation(tag) || tag == "link" || tag == "joint";
     if (!known)
-      patch.fail(
-          "an overlay cannot contain this element", "<" + tag + ">",
-          "link, joint, loop, coupling, codesign:parameter, codesign:set, codesign:spring_damper, "
-          "codesign:contact");
+      patch.fail("an overlay cannot contain this element", "<" + tag + ">",
+                 "link, joint, loop, coupling, " + list_names(find_rule("robot")->children));
     const std::string name = patch.text("name");
     XMLElement* like = find_like(base_->robot(), patch.node());
     const bool merged_already = !seen_.insert(tag + " " + name).second;

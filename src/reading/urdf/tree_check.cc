@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "description/link_elements.h"
 #include "math/arrays.h"
 #include "mechanism/pair_geometry.h"
 #include "text/nearest_name.h"
@@ -74,24 +75,28 @@ std::optional<InputError> mimic_fault(const JointDescription& joint,
 }  // namespace
 
 void check_names(const RobotDescription& robot) {
-  std::set<std::string> links, joints, couplings, springs, contacts;
+  std::set<std::string> links, joints, couplings;
   for (const LinkDescription& link : robot.links)
     insert_unique(link.name, link.where, "link", &links);
   for (const JointDescription& joint : robot.joints)
     insert_unique(joint.name, joint.where, joint.is_loop ? "loop" : "joint", &joints);
   for (const CouplingDescription& coupling : robot.couplings)
     insert_unique(coupling.name, coupling.where, "coupling", &couplings);
-  for (const SpringDamperDescription& spring : robot.spring_dampers)
-    insert_unique(spring.name, spring.where, "codesign:spring_damper", &springs);
-  for (const ContactDescription& contact : robot.contacts) {
-    insert_unique(contact.name, contact.where, "codesign:contact", &contacts);
-    for (const std::set<std::string>* others : {&links, &joints, &springs})
-      if (others->count(contact.name) != 0)
-        throw InputError({contact.where, contact.element(),
-                          "a link, joint, loop or spring-damper has this name, too, so that "
-                          "signals of the contact would be ambiguous",
-                          contact.name, "a name of its own"});
-  }
+  std::set<std::string> taken = links;
+  taken.insert(joints.begin(), joints.end());
+  for_each_link_element_kind(robot, [&](const LinkElementKind& kind, const auto& elements) {
+    std::set<std::string> own;
+    for (const auto& element : elements) {
+      insert_unique(element.name, element.where, kind.tag, &own);
+      if (!kind.shares_names && taken.count(element.name) != 0)
+        throw InputError({element.where,
+                          "<" + std::string(kind.tag) + " name=\"" + element.name + "\">",
+                          "a link, joint, loop or other element between links has this name, too, "
+                          "so that its signals would be ambiguous",
+                          element.name, "a name of its own"});
+    }
+    taken.insert(own.begin(), own.end());
+  });
 }
 
 void close_with_second_parents(RobotDescription* robot) {

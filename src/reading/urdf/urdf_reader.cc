@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "description/link_elements.h"
 #include "mechanism/constants.h"
 #include "reading/urdf/inertial_reader.h"
 #include "reading/urdf/joint_reader.h"
@@ -62,19 +63,22 @@ CouplingDescription read_coupling(const XmlElement& element, const ReadContext& 
   return coupling;
 }
 
-SpringDamperDescription read_spring_damper(const XmlElement& element, const ReadContext& context) {
-  SpringDamperDescription spring;
-  spring.where = element.where();
-  spring.name = element.text("name");
-  std::tie(spring.predecessor, spring.successor) = context.ends(element);
-  spring.predecessor_origin = read_origin(element.only("predecessor"), context.table);
-  spring.successor_origin = read_origin(element.only("successor"), context.table);
-  spring.stiffness = read_quantity(element, "stiffness", Range::kNonNegative, context.table);
-  spring.damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
-  spring.free_length =
+}  // namespace
+
+void read_link_element(const XmlElement& element, const ReadContext& context,
+                       SpringDamperDescription* spring) {
+  spring->where = element.where();
+  spring->name = element.text("name");
+  std::tie(spring->predecessor, spring->successor) = context.ends(element);
+  spring->predecessor_origin = read_origin(element.only("predecessor"), context.table);
+  spring->successor_origin = read_origin(element.only("successor"), context.table);
+  spring->stiffness = read_quantity(element, "stiffness", Range::kNonNegative, context.table);
+  spring->damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
+  spring->free_length =
       read_quantity_or(0.0, element, "free_length", Range::kNonNegative, context.table);
-  return spring;
 }
+
+namespace {
 
 /// Text or elements beside the `<robot>` of an overlay are an error, since they would be lost.
 XmlDocument load_overlay(SourceText source) {
@@ -151,10 +155,10 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   for (const XmlElement& coupling : element.children("coupling"))
     robot.couplings.push_back(read_coupling(coupling, context, robot));
   read_constraints(element, context, &robot);
-  for (const XmlElement& spring : element.children("codesign:spring_damper"))
-    robot.spring_dampers.push_back(read_spring_damper(spring, context));
-  for (const XmlElement& contact : element.children("codesign:contact"))
-    robot.contacts.push_back(read_contact(contact, context));
+  for_each_link_element_kind(robot, [&](const LinkElementKind& kind, auto& elements) {
+    for (const XmlElement& one : element.children(kind.tag))
+      read_link_element(one, context, &elements.emplace_back());
+  });
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   robot.used_parameters = context.table.used;
