@@ -44,16 +44,41 @@ FilterShape<T> lead_lag(const FilterNumbers<T>& x) {
 
 constexpr FilterNumber kFrequency{"frequency"};
 
+constexpr FilterLaw make_row(const char* name, Law<FilterFunction> shape, int order,
+                             std::array<FilterNumber, kFilterNumbers> numbers) {
+  FilterLaw law;
+  law.name = name;
+  law.shape = shape;
+  law.order = order;
+  law.numbers = numbers;
+  return law;
+}
+
+constexpr FilterLaw lead_lag_law() {
+  FilterLaw law = make_row("lead_lag", {lead_lag, lead_lag}, 1, {FilterNumber{"zero"}, {"pole"}});
+  law.passes_steps = true;
+  return law;
+}
+
+constexpr FilterLaw low_pass_2_law() {
+  FilterLaw law =
+      make_row("low_pass_2", {low_pass_2, low_pass_2}, 2, {kFrequency, {"damping", kButterworth}});
+  law.is_prewarped = true;
+  return law;
+}
+
+constexpr FilterLaw notch_law() {
+  FilterLaw law =
+      make_row("notch", {notch, notch}, 2, {kFrequency, {"damping"}, {"depth", 0.0, true}});
+  law.passes_steps = law.is_prewarped = true;
+  return law;
+}
+
 constexpr FilterLaw kFilterTable[] = {
-    {"lead_lag", {lead_lag, lead_lag}, {FilterNumber{"zero"}, {"pole"}}, 1, true, false},
-    {"low_pass", {low_pass, low_pass}, {kFrequency}, 1, false, false},
-    {"low_pass_2",
-     {low_pass_2, low_pass_2},
-     {kFrequency, {"damping", kButterworth}},
-     2,
-     false,
-     true},
-    {"notch", {notch, notch}, {kFrequency, {"damping"}, {"depth", 0.0, true}}, 2, true, true},
+    lead_lag_law(),
+    make_row("low_pass", {low_pass, low_pass}, 1, {kFrequency}),
+    low_pass_2_law(),
+    notch_law(),
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/linear_records.h"
 
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
+
 namespace codesign {
 namespace {
 
@@ -21,9 +24,8 @@ void add_stability(const LinearModel& model, Json* object) {
   if (model.system.period > 0.0) (*object)["period"] = model.system.period;
   Json modes = Json::array();
   for (const LinearMode& mode : model.modes) {
-    Json object_of_mode = Json::object();
-    visit_mode(mode, model.system.period,
-               [&](const char* name, double value) { object_of_mode[name] = value; });
+    Json object_of_mode = record_json(mode);
+    if (model.system.period > 0.0) object_of_mode["radius"] = mode.pole.radius(model.system.period);
     object_of_mode["rates"] = by_name(model.joints, mode.rates);
     modes.push_back(std::move(object_of_mode));
   }

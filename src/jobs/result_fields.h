@@ -10,6 +10,7 @@
 #include "jobs/fields.h"
 #include "jobs/run_recorder.h"
 #include "jobs/saved_result.h"
+#include "linear/linear_model.h"
 #include "mechanism/machine_numbers.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/event.h"
@@ -188,6 +189,14 @@ constexpr auto fields_of(const IdentificationResult*) {
                          field("failed_evaluations", &IdentificationResult::failed_evaluations),
                          field("iterations", &IdentificationResult::iterations),
                          field("cpu_seconds", &IdentificationResult::cpu_seconds));
+}
+
+/// Without radius, which a period gives, and rates.
+constexpr auto fields_of(const LinearMode*) {
+  return std::make_tuple(
+      field("growth", [](const LinearMode& mode) { return mode.pole.growth(); }),
+      field("frequency", [](const LinearMode& mode) { return mode.pole.frequency(); }),
+      field("damping_ratio", [](const LinearMode& mode) { return mode.pole.damping_ratio(); }));
 }
 
 constexpr auto fields_of(const ApplyRecord::Change*) {

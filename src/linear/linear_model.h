@@ -70,15 +70,6 @@ Study bare_study(const LinearCase& of);
 LinearModel linear_model(const LinearCase& of, const State<double>& state,
                          const VectorX<double>& theta);
 
-/// Calls visit(name, value) for the fields of a mode that are numbers, in the order of doc/json.md.
-template <class Visit>
-void visit_mode(const LinearMode& mode, double period, const Visit& visit) {
-  visit("growth", mode.pole.growth());
-  visit("frequency", mode.pole.frequency());
-  visit("damping_ratio", mode.pole.damping_ratio());
-  if (period > 0.0) visit("radius", mode.pole.radius(period));
-}
-
 /// Calls visit(name, value, unit) for the margins of a loop, std::optional<AtFrequency>.
 template <class Visit>
 void visit_margins(const LoopMargins& margins, const Visit& visit) {

@@ -122,9 +122,7 @@ bool AdjointGradient::step_back(int k) {
   adjoint.hold(replay.mode_after(k));
   if (has_stages) adjoint.reverse_stages(&replay.step());
   if (jump) {
-    // Only stages of implicit steps have matrices there.
-    if (has_stages && !replay.step().tableau().is_explicit())
-      adjoint.reverse_matrices(replay.behind());
+    adjoint.reverse_matrices(replay.behind());
     if (!jump_back(*jump, k)) return false;
     if (k == 0 || system_.layout().m == 0) return true;
     adjoint.clear();

@@ -17,11 +17,13 @@ MatrixWeights::MatrixWeights(const CompiledSystem& system, int pairs)
 void MatrixWeights::clear() {
   u_.setZero();
   mu_.setZero();
+  is_empty_ = true;
 }
 
 void MatrixWeights::set(int k, const VectorX<double>& u, const VectorX<double>& mu) {
   u_.row(k) = u.transpose();
   mu_.row(k) = mu.transpose();
+  is_empty_ = false;
 }
 
 void MatrixWeights::compute(const Sparsity& pattern, int first_column,
@@ -214,7 +216,7 @@ void AdjointStep::reverse_projection(const State<double>& start, const OneStep<d
 }
 
 void AdjointStep::reverse_matrices(const State<double>& start) {
-  if (tableau_->is_explicit() && layout_.m == 0) return;
+  if (weights_.is_empty()) return;
   const ByVariable<std::vector<double>>& weights = weights_.compute();
   equations_.add_transposed(EquationFunction::kLinearization, start,
                             {weights.position, weights.velocity, weights.rate, time_weights_},

@@ -21,6 +21,8 @@ class MatrixWeights {
 
   /// Sets all pairs to zero.
   void clear();
+  /// Whether no pair has been set since.
+  bool is_empty() const { return is_empty_; }
   /// Sets pair k. @param u in the order of IncrementLayout. @param mu one per row of G, then one
   /// for the integrand's row.
   void set(int k, const VectorX<double>& u, const VectorX<double>& mu);
@@ -34,6 +36,7 @@ class MatrixWeights {
   const CompiledSystem& system_;
   const IncrementLayout at_;
   Eigen::MatrixXd u_, mu_;  ///< a row per pair
+  bool is_empty_ = true;
   ByVariable<std::vector<double>> weights_;
 };
 
@@ -65,7 +68,7 @@ class AdjointStep {
   /// OneStep::resume(start).
   void reverse_projection(const State<double>& start, const OneStep<double>& step);
   /// Adds Theta_y of (18c): the dependence of stages and projection on `start` through the matrices
-  /// evaluated there.
+  /// evaluated there; nothing if none of them was used, as by explicit stages.
   void reverse_matrices(const State<double>& start);
 
   /// psi_y at `start` after reverse_matrices(), in the order of IncrementLayout.

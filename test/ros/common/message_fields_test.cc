@@ -7,8 +7,14 @@
 #include <set>
 
 #include "jobs/result_fields.h"
+#include "mechanism_codesign/Evaluate.h"
 #include "mechanism_codesign/IdentifiedNumber.h"
+#include "mechanism_codesign/IdentifyResult.h"
 #include "mechanism_codesign/OptimizeResult.h"
+#include "mechanism_codesign/Optimum.h"
+#include "mechanism_codesign/OutputFit.h"
+#include "mechanism_codesign/ScenarioResult.h"
+#include "mechanism_codesign/SearchResult.h"
 #include "mechanism_codesign/Validation.h"
 #include "mechanism_codesign/Warning.h"
 #include "mechanism_codesign/WatchedSignal.h"
@@ -70,23 +76,59 @@ TEST(MessageFields, AnotherTypeIsRefused) {
   EXPECT_THROW(set_fields(Misfit{"many"}, &message), std::logic_error);
 }
 
-/// The fields of a message that no row of the result sets.
-template <class Record, class Message>
-std::set<std::string> not_set() {
+using Set = std::set<std::string>;
+
+/// The fields of a message that no row of the results sets, and the rows that it does not have.
+struct Difference {
+  Set by_hand, not_sent;
+
+  template <class Record>
+  Difference& with() {
+    for_each_field<Record>([this](const auto& row) {
+      if (by_hand.erase(row.name) == 0) not_sent.insert(row.name);
+    });
+    return *this;
+  }
+};
+template <class Message>
+Difference of() {
   const Names names = names_of_fields(ros::message_traits::Definition<Message>::value());
-  std::set<std::string> left(names.begin(), names.end());
-  for_each_field<Record>([&left](const auto& row) { left.erase(row.name); });
-  return left;
+  return {Set(names.begin(), names.end()), {}};
+}
+
+// The line of a .msg file is part of a contract with clients and comes before any program, so that
+// it does not follow from the row. A new row is therefore either a line there or a name here.
+TEST(MessageFields, ARowIsSentOrIsNamedHere) {
+  namespace m = mechanism_codesign;
+  EXPECT_EQ(of<m::Validation>().with<Validation>().not_sent, Set());
+  EXPECT_EQ(of<m::Warning>().with<Warning>().not_sent, (Set{"file", "line"}));  // in the message
+  EXPECT_EQ(of<m::WatchedSignal>().with<WatchedResult>().not_sent, (Set{"tolerance"}));
+  EXPECT_EQ(of<m::IdentifiedNumber>().with<IdentifiedNumber>().not_sent, Set());
+  EXPECT_EQ(of<m::ScenarioResult>().with<ScenarioResult>().not_sent, Set());
+  EXPECT_EQ(of<m::SearchResult>().with<StartResult>().not_sent, (Set{"status"}));  // code
+  EXPECT_EQ(of<m::Optimum>().with<Optimum>().not_sent, Set());
+  EXPECT_EQ(of<m::OutputFit>().with<OutputFit>().with<Whiteness>().not_sent,
+            (Set{"explained", "lags", "ljung_box", "probability"}));  // whiteness
+  EXPECT_EQ(of<m::OptimizeResult>().with<SearchCost>().with<Statistics>().not_sent,
+            (Set{"explicit_steps"}));
+  EXPECT_EQ(of<m::EvaluateResponse>().with<Statistics>().not_sent, (Set{"explicit_steps"}));
+  EXPECT_EQ(of<m::IdentifyResult>().with<IdentificationResult>().not_sent, Set());
 }
 
 TEST(MessageFields, AFieldWithoutARowIsSetByHand) {
-  using Set = std::set<std::string>;
-  EXPECT_EQ((not_set<Validation, mechanism_codesign::Validation>()), Set());
-  EXPECT_EQ((not_set<Warning, mechanism_codesign::Warning>()), Set());
-  EXPECT_EQ((not_set<WatchedResult, mechanism_codesign::WatchedSignal>()),
+  namespace m = mechanism_codesign;
+  EXPECT_EQ(of<m::Validation>().with<Validation>().by_hand, Set());
+  EXPECT_EQ(of<m::Warning>().with<Warning>().by_hand, Set());
+  EXPECT_EQ(of<m::WatchedSignal>().with<WatchedResult>().by_hand,
             (Set{"largest_scenario", "smallest_scenario"}));
-  EXPECT_EQ((not_set<IdentifiedNumber, mechanism_codesign::IdentifiedNumber>()),
+  EXPECT_EQ(of<m::IdentifiedNumber>().with<IdentifiedNumber>().by_hand,
             (Set{"high", "low", "lower", "name", "profile_high", "profile_low", "upper"}));
+  EXPECT_EQ(of<m::ScenarioResult>().with<ScenarioResult>().by_hand, (Set{"parameters", "values"}));
+  EXPECT_EQ(of<m::SearchResult>().with<StartResult>().by_hand,
+            (Set{"code", "end", "message", "start"}));
+  EXPECT_EQ(of<m::Optimum>().with<Optimum>().by_hand, (Set{"values"}));
+  EXPECT_EQ(of<m::OutputFit>().with<OutputFit>().with<Whiteness>().by_hand,
+            (Set{"joint", "whiteness"}));
 }
 
 }  // namespace
