@@ -126,6 +126,21 @@ def codes_of(page):
 
 
 class Pages(unittest.TestCase):
+    def test_diffs_apply(self):
+        """Each file of a diff is there, or is a new one of a folder, and its places and the lines that it keeps or takes away are there."""
+        for page in pages():
+            for block in re.findall(r"^```diff\n(.*?)^```$", page.read_text(), re.DOTALL | re.MULTILINE):
+                for name, changes in re.findall(r"^--- (\S+)\n(.*?)(?=^--- |\Z)", block, re.DOTALL | re.MULTILINE):
+                    with self.subTest(page=page.name, file=name):
+                        path = ROOT / name
+                        text = " ".join(path.read_text().split()) if path.exists() else ""
+                        places = re.findall(r"^@@ (.*)", changes, re.MULTILINE)
+                        self.assertTrue(path.exists() or (path.parent.is_dir() and not places))
+                        for place in places:
+                            self.assertTrue(place in text, place)
+                        for line in re.findall(r"^[- ]\s*(\S.*)", changes, re.MULTILINE):
+                            self.assertTrue(" ".join(line.split()) in text, line)
+
     def test_links_lead_somewhere(self):
         known = {}
         for page in pages():
