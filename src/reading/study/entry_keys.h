@@ -27,6 +27,9 @@ struct EntryContext {
   const Study& study;  ///< as far as it has been read
 };
 
+/// For keys that need nothing else.
+struct NoContext {};
+
 /// A key of an entry. `read` sets what the key is about, or throws InputError; null: it is read
 /// beside the other keys, since these depend on it.
 template <class Entry, class Context = EntryContext>
@@ -60,17 +63,23 @@ EntryKeys<Entry, Context> with(EntryKeys<Entry, Context> keys,
   return keys;
 }
 
-/// Reads an entry: checks that it has all required keys and no unknown ones, then reads the given
-/// ones in the order of the rows. @throws InputError
+/// Checks that an entry has all required keys and no unknown ones. @throws InputError
 template <class Entry, class Context>
-void read_entry(const YamlValue& value, const EntryKeys<Entry, Context>& keys, const Context& in,
-                Entry* entry) {
+void require_keys(const YamlValue& value, const EntryKeys<Entry, Context>& keys) {
   std::vector<std::string> required, optional;
   for (const EntryKey<Entry, Context>& key : keys)
     (key.is_required ? required : optional).emplace_back(key.name);
   value.require_keys(required, optional);
+}
+
+/// Reads an entry: require_keys(), then the given keys in the order of the rows. @throws InputError
+template <class Entry, class Context>
+void read_entry(const YamlValue& value, const EntryKeys<Entry, Context>& keys,
+                const Context& context, Entry* entry) {
+  require_keys(value, keys);
   for (const EntryKey<Entry, Context>& key : keys)
-    if (const auto found = value.find(key.name); found && key.read) key.read(*found, in, entry);
+    if (const auto found = value.find(key.name); found && key.read)
+      key.read(*found, context, entry);
 }
 
 /// `between: [lower, upper]`, or `at_least` and `at_most` or one of these, into the members `lower`
@@ -124,11 +133,14 @@ struct EntryForm {
 };
 
 // The forms of the entries that are read by rows.
+std::vector<EntryForm> forms_of_starts();
 std::vector<EntryForm> forms_of_loads();
 std::vector<EntryForm> forms_of_terms();
 std::vector<EntryForm> forms_of_watched_signals();
 std::vector<EntryForm> forms_of_linear_numbers();
+std::vector<EntryForm> forms_of_parameters();
 std::vector<EntryForm> forms_of_constraints();
+std::vector<EntryForm> forms_of_runs();
 std::vector<EntryForm> forms_of_controllers();
 std::vector<EntryForm> forms_of_recordings();
 std::vector<EntryForm> forms_of_calibrations();

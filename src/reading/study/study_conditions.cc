@@ -17,17 +17,6 @@
 namespace codesign {
 namespace {
 
-using Names = std::vector<std::string>;
-
-const Names& scalar_keys() {
-  static const Names kKeys{"position", "velocity", "guess"};
-  return kKeys;
-}
-const Names& pose_keys() {
-  static const Names kKeys{"translation", "rotation", "linear_velocity", "angular_velocity"};
-  return kKeys;
-}
-
 /// Whether friction of a joint has states that can hold it. Behind an elastic gear the flanks do
 /// not: its spring starts undeflected and carries nothing.
 bool can_stick(const JointDescription& joint) {
@@ -39,7 +28,7 @@ bool can_stick(const JointDescription& joint) {
 /// The joint or loop of this name, whose initial state may be given.
 const JointDescription& starting_joint(const std::string& name, const RobotDescription& robot,
                                        const YamlValue& value) {
-  Names known;
+  std::vector<std::string> known;
   for (const JointDescription& joint : robot.joints) {
     const bool free = joint.has_pose();
     if (joint.name == name && (free || joint.has_one_coordinate() || can_stick(joint)))
@@ -50,19 +39,6 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
     if (free || joint.has_one_coordinate()) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
-}
-
-void read_scalar_start(const YamlValue& value, const ParameterTable& table,
-                       InitialJointState* state) {
-  if (const auto position = value.find("position"))
-    state->position = read_quantity(*position, table);
-  if (const auto velocity = value.find("velocity"))
-    state->velocity = read_quantity(*velocity, table);
-  const auto guess = value.find("guess");
-  if (guess && state->position)
-    guess->fail("a joint has either a position or a guess of it",
-                "position, which is kept, or guess, where the search for a closed loop begins");
-  if (guess) state->guess = guess->number();
 }
 
 /// Checks that a joint can slide along a vector, at the parameters' start values: in the plane
@@ -86,51 +62,32 @@ void check_slide(const YamlValue& value, const QuantityVector& vector,
                "a vector along the joint's <axis>");
 }
 
-void read_pose_start(const YamlValue& value, const JointDescription& joint,
-                     const ParameterTable& table, InitialJointState* state) {
-  const bool turns_once = joint.freedoms().turns == 1;
-  const auto slide = [&](const char* key, std::optional<QuantityVector>* result) {
-    const auto found = value.find(key);
-    if (!found) return;
-    *result = read_vector(*found, table);
-    check_slide(*found, **result, joint);
-  };
-  const auto turn = [&](const char* key, std::optional<QuantityVector>* result) {
-    const auto found = value.find(key);
-    if (!found) return;
-    if (turns_once && found->is_list())
-      found->fail(joint.freedoms().slides == 2 ? "a planar joint turns only about its normal"
-                                               : "this joint turns only about its axis",
-                  "one number");
-    *result = turns_once ? QuantityVector{0.0, 0.0, read_quantity(*found, table)}
-                         : read_vector(*found, table);
-  };
-  slide("translation", &state->translation);
-  slide("linear_velocity", &state->linear_velocity);
-  turn("rotation", &state->rotation);
-  turn("angular_velocity", &state->angular_velocity);
-  // An angular velocity needs a known rotation: zero if it is not given.
-  if (state->angular_velocity && !state->rotation) state->rotation.emplace();
-}
+/// What the start of a joint is read with.
+struct StartContext {
+  const JointDescription& joint;
+  const ParameterTable& table;
+};
+using StartKeys = EntryKeys<InitialJointState, StartContext>;
+using StartKey = EntryKey<InitialJointState, StartContext>;
 
-/// Reads `stuck`: the joint is at rest, held by its bristles.
-void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJointState* state) {
-  const auto stuck = value.find("stuck");
-  if (!stuck || !stuck->boolean()) return;
+/// The joint is at rest, held by its bristles.
+void read_stuck(const YamlValue& value, const StartContext& in, InitialJointState* state) {
+  const JointDescription& joint = in.joint;
+  if (!value.boolean()) return;
   if (!can_stick(joint)) {
     if (joint.actuator && joint.actuator->elastic && joint.actuator->gear &&
         joint.actuator->gear->slip.model->bristle)
-      stuck->fail(
+      value.fail(
           "the gear of the joint is elastic and starts undeflected, so that friction of its flanks "
           "does not hold the joint",
           "friction with states at the joint itself, or a gear without stiffness");
-    stuck->fail("the joint has no friction with states, which alone can hold it at rest",
-                "model=\"lugre\" or \"gonthier\" in its <codesign:friction>, or model=\"lugre\" "
-                "in its <codesign:actuator>");
+    value.fail("the joint has no friction with states, which alone can hold it at rest",
+               "model=\"lugre\" or \"gonthier\" in its <codesign:friction>, or model=\"lugre\" "
+               "in its <codesign:actuator>");
   }
   if (state->velocity || state->linear_velocity || state->angular_velocity)
-    stuck->fail("a joint that starts stuck is at rest, and its velocity is given, too",
-                "either stuck or a velocity");
+    value.fail("a joint that starts stuck is at rest, and its velocity is given, too",
+               "either stuck or a velocity");
   state->stuck = true;
   if (joint.is_loop) return;
   if (joint.has_pose())
@@ -139,30 +96,93 @@ void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJo
     state->velocity = Quantity(0.0);
 }
 
+StartKey scalar_key(const char* name, std::optional<Quantity> InitialJointState::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const StartContext& in, InitialJointState* state) {
+            state->*member = read_quantity(value, in.table);
+          }};
+}
+
+const StartKeys& scalar_keys() {
+  static const StartKeys kKeys{
+      scalar_key("position", &InitialJointState::position),
+      scalar_key("velocity", &InitialJointState::velocity),
+      {"guess", false, [](const YamlValue& value, const StartContext&, InitialJointState* state) {
+         if (state->position)
+           value.fail("a joint has either a position or a guess of it",
+                      "position, which is kept, or guess, where the search for a closed loop "
+                      "begins");
+         state->guess = value.number();
+       }}};
+  return kKeys;
+}
+
+StartKey slide_key(const char* name, std::optional<QuantityVector> InitialJointState::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const StartContext& in, InitialJointState* state) {
+            state->*member = read_vector(value, in.table);
+            check_slide(value, *(state->*member), in.joint);
+          }};
+}
+
+StartKey turn_key(const char* name, std::optional<QuantityVector> InitialJointState::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const StartContext& in, InitialJointState* state) {
+            const bool turns_once = in.joint.freedoms().turns == 1;
+            if (turns_once && value.is_list())
+              value.fail(in.joint.freedoms().slides == 2
+                             ? "a planar joint turns only about its normal"
+                             : "this joint turns only about its axis",
+                         "one number");
+            state->*member = turns_once ? QuantityVector{0.0, 0.0, read_quantity(value, in.table)}
+                                        : read_vector(value, in.table);
+          }};
+}
+
+const StartKeys& pose_keys() {
+  static const StartKeys kKeys{slide_key("translation", &InitialJointState::translation),
+                               turn_key("rotation", &InitialJointState::rotation),
+                               slide_key("linear_velocity", &InitialJointState::linear_velocity),
+                               turn_key("angular_velocity", &InitialJointState::angular_velocity)};
+  return kKeys;
+}
+
+StartKeys with_stuck(const StartKeys& keys) {
+  return with(keys, StartKeys{{"stuck", false, read_stuck}});
+}
+
+std::string list_keys(const StartKeys& keys) {
+  std::vector<std::string> names;
+  for (const StartKey& key : keys) names.emplace_back(key.name);
+  return list_names(names);
+}
+
 InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
                                    const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
   const bool pose = joint.has_pose(), scalar = joint.has_one_coordinate();
-  Names keys = pose ? pose_keys() : scalar ? scalar_keys() : Names();
-  const Names& others = pose ? scalar_keys() : pose_keys();
-  keys.emplace_back("stuck");
+  const StartKeys keys = with_stuck(pose ? pose_keys() : scalar ? scalar_keys() : StartKeys());
   if (value.is_map())
-    for (const auto& [key, at] : value.entries())
-      if (std::find(others.begin(), others.end(), key) != others.end())
-        at.fail("this joint's start has no " + key, list_names(keys));
-  value.require_keys({}, keys);
-  if (value.entries().empty())
-    value.fail("no initial state is given for this joint", list_names(keys));
+    for (const StartKey& other : pose ? scalar_keys() : pose_keys())
+      if (const auto at = value.find(other.name))
+        at->fail(std::string("this joint's start has no ") + other.name, list_keys(keys));
   InitialJointState state;
   state.joint = joint.name;
   state.where = value.where();
-  if (pose) read_pose_start(value, joint, table, &state);
-  if (scalar) read_scalar_start(value, table, &state);
-  read_stuck(value, joint, &state);
+  read_entry(value, keys, StartContext{joint, table}, &state);
+  if (value.entries().empty())
+    value.fail("no initial state is given for this joint", list_keys(keys));
+  // An angular velocity needs a known rotation: zero if it is not given.
+  if (value.find("angular_velocity") && !state.rotation) state.rotation.emplace();
   return state;
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_starts() {
+  return {{"initial_state.JOINT", with_stuck(scalar_keys())},
+          {"initial_state.JOINT", with_stuck(pose_keys())}};
+}
 
 void read_initial_state(const YamlValue& study_value, const RobotDescription& robot,
                         const ParameterTable& table, Study* study) {

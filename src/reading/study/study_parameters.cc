@@ -39,19 +39,54 @@ std::unordered_map<std::string, int> indices_of(const std::vector<Parameter>& pa
 
 }  // namespace
 
-void read_bounds(const YamlValue& value, Parameter* parameter) {
-  const auto lower = value.find("lower");
-  const auto upper = value.find("upper");
-  if (lower) parameter->lower = lower->number();
-  if (upper) parameter->upper = upper->number();
-  if (!(parameter->lower < parameter->upper)) {
+namespace {
+
+/// A parameter of the study with what else is said of it there.
+struct TunedParameter : Parameter {
+  bool tune = true;
+};
+
+template <class Entry>
+EntryKeys<Entry, NoContext> value_keys() {
+  const auto number_key = [](const char* name, double Parameter::*member) {
+    return optional_key<Entry, NoContext>(
+        name, [member](const YamlValue& value, const NoContext&, Entry* entry) {
+          entry->*member = value.number();
+        });
+  };
+  return {number_key("initial", &Parameter::value), number_key("lower", &Parameter::lower),
+          number_key("upper", &Parameter::upper)};
+}
+
+EntryKeys<TunedParameter, NoContext> parameter_keys() {
+  using Keys = EntryKeys<TunedParameter, NoContext>;
+  return with(value_keys<TunedParameter>(),
+              Keys{optional_key<TunedParameter, NoContext>(
+                  "tune", [](const YamlValue& value, const NoContext&, TunedParameter* entry) {
+                    entry->tune = value.boolean();
+                  })});
+}
+
+void check_bounds(const YamlValue& value, const Parameter& parameter) {
+  const auto lower = value.find("lower"), upper = value.find("upper");
+  if (!(parameter.lower < parameter.upper)) {
     const YamlValue& at = lower ? *lower : upper ? *upper : value;
     at.fail("the lower bound must lie below the upper bound",
-            "lower < upper, not " + range_of(*parameter));
+            "lower < upper, not " + range_of(parameter));
   }
-  if (parameter->value < parameter->lower || parameter->value > parameter->upper)
+  if (parameter.value < parameter.lower || parameter.value > parameter.upper)
     value.find("initial").value_or(value).fail("the start lies outside the bounds",
-                                               range_of(*parameter));
+                                               range_of(parameter));
+}
+
+}  // namespace
+
+std::vector<EntryForm> forms_of_parameters() { return {{"parameters.NAME", parameter_keys()}}; }
+
+void read_bounds(const YamlValue& value, Parameter* parameter) {
+  if (const auto lower = value.find("lower")) parameter->lower = lower->number();
+  if (const auto upper = value.find("upper")) parameter->upper = upper->number();
+  check_bounds(value, *parameter);
 }
 
 void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
@@ -59,16 +94,17 @@ void read_parameters(const YamlValue& study_value, const RobotDescription& robot
   const auto parameters = study_value.find("parameters");
   if (!parameters) return;
   std::unordered_map<std::string, int> indices = indices_of(study->parameters);
+  const EntryKeys<TunedParameter, NoContext> keys = parameter_keys();
   for (const auto& [name, value] : parameters->entries()) {
-    value.require_keys({}, {"tune", "initial", "lower", "upper"});
+    require_keys(value, keys);
     const auto [found, is_new] = indices.emplace(name, static_cast<int>(study->parameters.size()));
     const int index = found->second;
     if (is_new) study->parameters.push_back(new_parameter(name, value, robot.parameters));
-    Parameter& parameter = study->parameters[to_index(index)];
-    if (const auto initial = value.find("initial")) parameter.value = initial->number();
-    read_bounds(value, &parameter);
-    const auto tune = value.find("tune");
-    if (!tune || tune->boolean()) study->tuned.push_back(index);
+    TunedParameter entry{study->parameters[to_index(index)]};
+    read_entry(value, keys, NoContext(), &entry);
+    check_bounds(value, entry);
+    if (entry.tune) study->tuned.push_back(index);
+    study->parameters[to_index(index)] = std::move(entry);
   }
 }
 
@@ -78,12 +114,11 @@ void read_fitted(const YamlValue& value, double lower, FittedNumber* number) {
     number->value = value.number();
     return;
   }
-  value.require_keys({}, {"initial", "lower", "upper"});
   Parameter parameter;
   parameter.value = number->value;
   parameter.lower = lower;
-  if (const auto initial = value.find("initial")) parameter.value = initial->number();
-  read_bounds(value, &parameter);
+  read_entry(value, value_keys<Parameter>(), NoContext(), &parameter);
+  check_bounds(value, parameter);
   number->is_fitted = true;
   number->value = parameter.value;
   number->lower = parameter.lower;

@@ -7,6 +7,7 @@
 
 #include "description/tuned_parameters.h"
 #include "math/arrays.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_values.h"
 #include "recordings/number_table.h"
 #include "text/nearest_name.h"
@@ -89,27 +90,40 @@ std::shared_ptr<const Study> read_changed(const YamlValue& study_value, const st
   }
 }
 
+/// The keys of a run: what it sets, then the blocks of the study that it changes, which are read
+/// with the study, read_changed().
+const EntryKeys<RunDescription, Study>& run_keys() {
+  using Run = RunDescription;
+  static const EntryKeys<Run, Study> kKeys{{"set", false,
+                                            [](const YamlValue& value, const Study& study,
+                                               Run* run) { run->set = read_set(value, study); }},
+                                           {"weight", false,
+                                            [](const YamlValue& value, const Study&, Run* run) {
+                                              run->weight = value.number();
+                                              if (!(run->weight > 0.0))
+                                                value.fail(
+                                                    "the weight of a run must be positive",
+                                                    "more than 0, relative to the other runs");
+                                            }},
+                                           {"initial_state", false, nullptr},
+                                           {"controllers", false, nullptr},
+                                           {"loads", false, nullptr},
+                                           {"motion", false, nullptr},
+                                           {"gravity", false, nullptr}};
+  return kKeys;
+}
+
 RunDescription read_run_entry(const YamlValue& study_value, const std::string& name,
                               const YamlValue& value, const Study& study,
                               const RunReader& read_run) {
-  const std::vector<std::string> changes{"initial_state", "controllers", "loads", "motion",
-                                         "gravity"};
   check_name(name, value.where(), value.path());
-  value.require_keys(
-      {}, {"set", "weight", "initial_state", "controllers", "loads", "motion", "gravity"});
   RunDescription run;
   run.name = name;
   run.where = value.where();
-  if (const auto set = value.find("set")) run.set = read_set(*set, study);
-  if (const auto weight = value.find("weight")) {
-    run.weight = weight->number();
-    if (!(run.weight > 0.0))
-      weight->fail("the weight of a run must be positive",
-                   "more than 0, relative to the other runs");
-  }
+  read_entry(value, run_keys(), study, &run);
   check_controllers(value, study);
-  if (std::any_of(changes.begin(), changes.end(),
-                  [&value](const std::string& key) { return value.find(key).has_value(); }))
+  if (std::any_of(run_keys().begin(), run_keys().end(),
+                  [&value](const auto& key) { return !key.read && value.find(key.name); }))
     run.study = read_changed(study_value, name, value, study, read_run);
   return run;
 }
@@ -184,6 +198,8 @@ std::vector<RunDescription> read_table_of_runs(const YamlValue& runs, const Stud
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_runs() { return {{"runs.NAME", run_keys()}}; }
 
 std::vector<RunDescription> read_runs(const YamlValue& study_value, const Study& study,
                                       const RunReader& read_run, const FileLoader& files) {

@@ -15,7 +15,8 @@ namespace {
 std::vector<EntryForm> all_forms() {
   std::vector<EntryForm> all;
   for (const std::vector<EntryForm>& forms :
-       {forms_of_loads(), forms_of_terms(), forms_of_watched_signals(), forms_of_linear_numbers(),
+       {forms_of_starts(), forms_of_parameters(), forms_of_runs(), forms_of_loads(),
+        forms_of_terms(), forms_of_watched_signals(), forms_of_linear_numbers(),
         forms_of_constraints(), forms_of_controllers(), forms_of_recordings(),
         forms_of_calibrations()})
     all.insert(all.end(), forms.begin(), forms.end());
