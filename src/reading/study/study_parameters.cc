@@ -53,21 +53,31 @@ void read_bounds(const YamlValue& value, Parameter* parameter) {
                                                range_of(*parameter));
 }
 
-void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot,
+                     const FileLoader& files, Study* study) {
   study->parameters = robot.parameters;
   const auto parameters = study_value.find("parameters");
   if (!parameters) return;
   std::unordered_map<std::string, int> indices = indices_of(study->parameters);
   for (const auto& [name, value] : parameters->entries()) {
-    value.require_keys({}, {"tune", "initial", "lower", "upper"});
+    if (is_catalogue(value)) {
+      read_catalogue(name, value, files, study);
+      continue;
+    }
+    value.require_keys({}, {"tune", "initial", "lower", "upper", "choice", "integer"});
     const auto [found, is_new] = indices.emplace(name, static_cast<int>(study->parameters.size()));
     const int index = found->second;
     if (is_new) study->parameters.push_back(new_parameter(name, value, robot.parameters));
     Parameter& parameter = study->parameters[to_index(index)];
     if (const auto initial = value.find("initial")) parameter.value = initial->number();
-    read_bounds(value, &parameter);
     const auto tune = value.find("tune");
-    if (!tune || tune->boolean()) study->tuned.push_back(index);
+    const bool is_tuned = !tune || tune->boolean();
+    if (is_tuned && (value.find("choice") || value.find("integer"))) {
+      read_choice(name, value, index, study);
+      continue;
+    }
+    read_bounds(value, &parameter);
+    if (is_tuned) study->tuned.push_back(index);
   }
 }
 
