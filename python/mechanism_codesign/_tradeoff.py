@@ -25,7 +25,7 @@ class TradeoffPoint:
     objectives: by name, in the units of their terms; empty if the search failed.
     parameters: every named parameter, in SI units; empty if the search failed.
     status: Status of the search.
-    stationarity: of its end, relative to the objective that it minimized; None: not known.
+    stationarity: of its end, relative to what it minimized, without unit; None: not known.
     evaluations: of the search.
     done, of: while the job runs, the searches that have ended, and how many are planned; else None.
     """
@@ -58,6 +58,7 @@ class Tradeoff:
     rho: shape (n, p), the tuned parameters in the order of Problem.names, in SI units; not numbers where a search failed.
     kinds: of the points.
     status: Status of the job. "cancelled": the points so far are there.
+    warnings: about the job.
     """
 
     def __init__(self, core: "_core.Traded"):
@@ -76,7 +77,7 @@ class Tradeoff:
 
     @property
     def record(self) -> Dict[str, Any]:
-        """All of the job, as `--json` prints it; doc/json.md lists its keys."""
+        """All of the job, as `--json` prints it; doc/json.md lists its keys with their units."""
         return self._record
 
     def report(self, path: "str | os.PathLike[str] | None" = None) -> str:

@@ -93,8 +93,8 @@ const CommandHelp kCommands[] = {
     {"report",
      R"(  report DIR|BAG           a page with all that an optimization or identification has found, or
                            with the curves and maps of a file of efforts --json, or the margins,
-                           diagrams and poles of a file of linearize --json, or the curve and designs
-                           of a file of tradeoff --json
+                           diagrams and poles of a file of linearize --json, or the curve and
+                           designs of a file of tradeoff --json
     -o FILE                the page; by default report.html
 )"},
     {"apply",

@@ -69,7 +69,7 @@ tradeoff:
         curve = codesign.Problem(self.CART, self.STUDY).tradeoff(points=5, progress=lines.append)
         self.assertEqual((curve.names, curve.status.code, len(curve.points)), (["error", "effort"], "success", 5))
         k1, k2 = curve.rho.T
-        np.testing.assert_allclose(curve.objectives[:, 1], k1 ** 2 / (2.0 * k2), rtol=1e-4)
+        np.testing.assert_allclose(curve.objectives[:, 1], k1 ** 2 / (2.0 * k2), rtol=1e-3)  # but for what is left after 20 s
         self.assertTrue(np.all(np.diff(curve.objectives[:, 0]) > 0.0) and np.all(np.diff(curve.objectives[:, 1]) < 0.0))
         self.assertEqual([line.done for line in lines], [1, 2, 3, 4, 5])
         self.assertIn("point 5 of 5", str(lines[-1]))

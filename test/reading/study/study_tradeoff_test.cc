@@ -11,7 +11,7 @@
 namespace codesign {
 namespace {
 
-Study read(const std::string& tradeoff) {
+Study read_traded(const std::string& tradeoff) {
   const RobotDescription robot = read_urdf({"cart.urdf", R"(<robot name="cart"><link name="ground"/>
   <link name="cart"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
   <joint name="slide" type="prismatic"><parent link="ground"/><child link="cart"/><axis xyz="1 0 0"/>
@@ -21,26 +21,26 @@ Study read(const std::string& tradeoff) {
                     robot);
 }
 
-std::string fault_of(const std::string& tradeoff) {
+std::string place_of_fault(const std::string& tradeoff) {
   try {
-    read(tradeoff);
+    read_traded(tradeoff);
   } catch (const InputError& error) {
     return error.fault().element;
   }
   return "";
 }
 
-const std::string kOne =
+const std::string kFirstItem =
                       "{name: one, objective: {terminal: [{signal: slide/position, reference: "
                       "\"${k}\"}]}}",
-                  kTwo =
+                  kSecondItem =
                       "{name: two, objective: {integral: [{signal: slide/velocity}], peak: "
                       "[{signal: slide/position}]}}";
 
 TEST(StudyTradeoff, IsAStudyForEachObjective) {
-  const Study study = read("tradeoff: [" + kOne + ", " + kTwo +
-                           "]\npath: [{signal: slide/position, "
-                           "at_most: 2.0}]\n");
+  const Study study = read_traded("tradeoff: [" + kFirstItem + ", " + kSecondItem +
+                                  "]\npath: [{signal: slide/position, "
+                                  "at_most: 2.0}]\n");
   ASSERT_EQ(study.tradeoff.size(), 2u);
   EXPECT_TRUE(study.integral.empty() && study.terminal.empty());
   EXPECT_EQ(study.tradeoff[0].name, "one");
@@ -53,17 +53,19 @@ TEST(StudyTradeoff, IsAStudyForEachObjective) {
 }
 
 TEST(StudyTradeoff, FaultsHaveTheirPlaces) {
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne + "]\n"), "tradeoff");
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne + ", " + kOne + "]\n"), "tradeoff[1].name");
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne + ", {name: two, objective: {}}]\n"),
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem + "]\n"), "tradeoff");
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem + ", " + kFirstItem + "]\n"),
+            "tradeoff[1].name");
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem + ", {name: two, objective: {}}]\n"),
             "tradeoff[1].objective");
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne + ", {name: a b, objective: {}}]\n"), "tradeoff[1].name");
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne +
-                     ", {name: two, objective: {terminal: [{signal: "
-                     "slide/nothing}]}}]\n"),
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem + ", {name: a b, objective: {}}]\n"),
+            "tradeoff[1].name");
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem +
+                           ", {name: two, objective: {terminal: [{signal: "
+                           "slide/nothing}]}}]\n"),
             "tradeoff[1].objective.terminal[0].signal");
-  EXPECT_EQ(fault_of("tradeoff: [" + kOne + ", " + kTwo +
-                     "]\nobjective: {terminal: [{signal: slide/position}]}\n"),
+  EXPECT_EQ(place_of_fault("tradeoff: [" + kFirstItem + ", " + kSecondItem +
+                           "]\nobjective: {terminal: [{signal: slide/position}]}\n"),
             "objective");
 }
 
