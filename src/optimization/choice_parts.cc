@@ -35,6 +35,7 @@ std::pair<std::size_t, double> cut_of(const ChoiceSpace& space, const ChoiceList
   std::vector<double> values;
   for (std::size_t c = 0; c < list.places.size(); ++c) {
     std::vector<double> of;
+    of.reserve(rows.size());
     for (const std::size_t row : rows) of.push_back(list.choice->rows[row][c]);
     std::sort(of.begin(), of.end());
     const double spread = (of.back() - of.front()) / range(space, list, c);

@@ -45,7 +45,8 @@ void read_whole_numbers(const YamlValue& at, ParameterChoice* choice) {
     at.fail("the first whole number must be less than the last, by less than " +
                 std::to_string(kMostRows),
             "[12, 40]");
-  for (int value = first; value <= last; ++value) choice->rows.push_back({double(value)});
+  for (int value = first; value <= last; ++value)
+    choice->rows.push_back({static_cast<double>(value)});
 }
 
 /// The parameter that the column of a list sets.

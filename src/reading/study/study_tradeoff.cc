@@ -14,7 +14,7 @@ constexpr const char* kForm = "{name: NAME, objective: {...}}";
 
 std::string read_name(const YamlValue& item, const std::vector<TradeoffObjective>& before) {
   const YamlValue name = item.at("name");
-  const std::string text = name.text();
+  std::string text = name.text();
   const bool is_word = !text.empty() && std::all_of(text.begin(), text.end(), continues_identifier);
   if (!is_word)
     name.fail("not a name for an objective, which heads a column",
