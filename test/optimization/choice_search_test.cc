@@ -75,9 +75,9 @@ TEST(ChoiceSearch, WholeNumbersOfAQuadraticAreNotTheRoundedOnes) {
 }
 
 const char* const kParts =
-    "part: {choice: [{mass: 0.6, damping: 0.1}, {mass: 0.7, damping: 3.5}, {mass: 1.3, damping: "
-    "2.9}, {mass: 1.5, damping: 0.2}, {mass: 2.2, damping: 0.9}, {mass: 2.9, damping: 4.0}, {mass: "
-    "3.4, damping: 1.7}, {mass: 4.0, damping: 0.3}]}";
+    "part: {choice: [{mass: 0.6, damping: 0.1}, {mass: 0.6, damping: 2.2}, {mass: 1.5, damping: "
+    "0.2}, {mass: 2.2, damping: 0.9}, {mass: 1.6, damping: 3.7}, {mass: 3.4, damping: 1.7}, {mass: "
+    "4.0, damping: 0.3}, {mass: 2.9, damping: 4.0}]}";
 
 std::string servo(const std::string& parameters) {
   return R"(
@@ -101,8 +101,8 @@ TEST(ChoiceSearch, ACatalogueOfAMechanismIsThatOfAllCombinations) {
   Evaluator evaluator(problem);
   double least = std::numeric_limits<double>::infinity();
   Eigen::VectorXd best;
-  const double parts[8][2] = {{0.6, 0.1}, {0.7, 3.5}, {1.3, 2.9}, {1.5, 0.2},
-                              {2.2, 0.9}, {2.9, 4.0}, {3.4, 1.7}, {4.0, 0.3}};
+  const double parts[8][2] = {{0.6, 0.1}, {0.6, 2.2}, {1.5, 0.2}, {2.2, 0.9},
+                              {1.6, 3.7}, {3.4, 1.7}, {4.0, 0.3}, {2.9, 4.0}};
   for (const auto& part : parts)
     for (int k = 1; k <= 10; ++k) {
       const Eigen::VectorXd rho = Eigen::Vector3d(part[0], part[1], k);
@@ -113,11 +113,26 @@ TEST(ChoiceSearch, ACatalogueOfAMechanismIsThatOfAllCombinations) {
   EXPECT_NEAR(result.best.objective, least, 1e-6 * least);
   EXPECT_TRUE(result.choice.is_complete);
   EXPECT_LT(result.choice.searched, 60);
-  // The relaxation, rounded to the nearest part, is worse.
-  const OptimizationResult relaxed =
-      optimize(cart(servo("mass: {initial: 1.0, lower: 0.6, upper: 4.0}, k: {initial: 3.0, lower: "
-                          "1.0, upper: 10.0}, d: {initial: 0, tune: false}")));
-  ASSERT_TRUE(relaxed.status.ok());
+  // The nearest part to the best numbers between, with the nearest whole number, is not the best.
+  std::string between = servo(
+      "mass: {initial: 1.0, lower: 0.6, upper: 4.0}, k: {initial: 3.0, "
+      "lower: 1.0, upper: 10.0}");
+  between.replace(between.find("tune: false"), 11, "lower: 0.1, upper: 4.0");
+  const Problem free = cart(between);
+  const OptimizationResult relaxed = optimize(free);
+  ASSERT_TRUE(relaxed.status.ok()) << relaxed.status.cause;
+  EXPECT_LT(relaxed.best.objective, least);
+  ASSERT_EQ(free.tuned_names(), (std::vector<std::string>{"damping", "mass", "k"}));
+  Eigen::VectorXd rounded = best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& part : parts) {
+    const double away = std::max(std::abs(part[0] - relaxed.best.rho[1]) / 3.4,
+                                 std::abs(part[1] - relaxed.best.rho[0]) / 3.9);
+    if (away >= nearest) continue;
+    nearest = away;
+    rounded = Eigen::Vector3d(part[0], part[1], std::round(relaxed.best.rho[2]));
+  }
+  EXPECT_GT(evaluator.evaluate(rounded, false).objective, 1.01 * least);
 }
 
 TEST(ChoiceSearch, FewCombinationsAreAllSearched) {
