@@ -158,6 +158,7 @@ add_test(NAME gallery COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test
 add_test(NAME watch_page COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/watch_test.py)
 add_test(NAME report COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/report_test.py $<TARGET_FILE:codesign>)
 add_test(NAME linear_report COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/linear_report_test.py $<TARGET_FILE:codesign>)
+add_test(NAME tradeoff_report COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/tradeoff_report_test.py)
 add_test(NAME report_parts COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/report_parts_test.py)
 set(codesign_setup)
 set(codesign_reads_bags)

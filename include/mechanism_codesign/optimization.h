@@ -161,6 +161,14 @@ struct SearchCost {
   int failed_evaluations = 0;
   /// sums over all evaluations; drift and energy error are the largest of any evaluation
   Statistics statistics;
+
+  SearchCost& operator+=(const SearchCost& other) {
+    iterations += other.iterations;
+    evaluations += other.evaluations;
+    failed_evaluations += other.failed_evaluations;
+    statistics += other.statistics;
+    return *this;
+  }
 };
 
 /// Of a study with runs or uncertain parameters; else empty.
@@ -177,6 +185,20 @@ struct MultistartResult {
   std::vector<Optimum> optima;      ///< best first
   /// number of points evaluated to choose the starts, and of these the number of failed points
   int screened = 0, unusable = 0;
+};
+
+/// Of a study with parameters that are chosen from lists or whole numbers; else empty. Theory
+/// (24n).
+struct ChoiceResult {
+  /// Per list its name and what was chosen: the label of the row, or its numbers.
+  std::vector<std::pair<std::string, std::string>> chosen;
+  double combinations = 0.0;  ///< number of all
+  int searched = 0;           ///< combinations at which a search of the other parameters has ended
+  int relaxations = 0;  ///< searches of parts of the combinations with numbers between the listed
+  /// parts left out since their relaxation was worse than the best combination known
+  int bounded = 0;
+  int infeasible = 0;        ///< parts left out since their relaxation met no constraints
+  bool is_complete = false;  ///< whether each combination was searched or left out
 };
 
 /// The best point of an optimization and how the search ended.
@@ -198,6 +220,7 @@ struct OptimizationResult {
   SearchCost cost;
   EnsembleResult ensemble;
   MultistartResult multistart;
+  ChoiceResult choice;
   /// about the best point, and about the search: a parameter without influence or on its bound
   Warnings warnings;
 };

@@ -33,6 +33,8 @@ if _TYPE_CHECKING:
     from ._results import Run as Run
     from ._results import Stage as Stage
     from ._results import Trial as Trial
+    from ._tradeoff import Tradeoff as Tradeoff
+    from ._tradeoff import TradeoffPoint as TradeoffPoint
 
 # Imported when they are first used: scripts that only read messages need neither numpy nor the library.
 _MODULES = {
@@ -40,6 +42,7 @@ _MODULES = {
     "ComputationError": "_errors", "InputError": "_errors", "OutputError": "_errors", "Status": "_errors", "Warning": "_errors",
     "Linearization": "_linear", "TransferFunction": "_linear",
     "Fit": "_results", "FitTrial": "_results", "Number": "_results", "Result": "_results", "Run": "_results", "Stage": "_results", "Trial": "_results",
+    "Tradeoff": "_tradeoff", "TradeoffPoint": "_tradeoff",
 }
 __all__ = sorted(_MODULES)
 

@@ -13,6 +13,7 @@ from . import _core, _notebook
 from ._errors import ComputationError, Status, Warning
 from ._linear import Linearization
 from ._results import Fit, FitTrial, Result, Run, Stage, Trial
+from ._tradeoff import Tradeoff, TradeoffPoint
 
 Array = npt.NDArray[np.float64]
 Source = Union[str, "os.PathLike[str]"]
@@ -248,6 +249,19 @@ class Problem:
             progress(Stage(line, **fields) if "stage" in fields else Trial(line, **fields))
 
         return Result(self._core.optimize(None if progress is None else tell, _event(cancel)), self)
+
+    def tradeoff(self, points: Optional[int] = None, *, progress: Optional[Callable[[TradeoffPoint], object]] = None,
+                 cancel: Optional[Event] = None) -> Tradeoff:
+        """The best designs between the objectives of the study's `tradeoff`: `codesign tradeoff`.
+
+        points: their number along the curve, by default 11; of three objectives along each side of the triangle, by default 5. progress:
+        called after each search. cancel: as in optimize(); the points so far are kept.
+        """
+        def tell(line: str, fields: Dict[str, Any]) -> None:
+            assert progress is not None
+            progress(TradeoffPoint(fields, line))
+
+        return Tradeoff(self._core.tradeoff(0 if points is None else points, None if progress is None else tell, _event(cancel)))
 
     def identify(self, time: Optional[npt.ArrayLike] = None, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
                  velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,

@@ -16,7 +16,7 @@ class Efforts:
     def __init__(self, path, result):
         self.path, self.result = path, result
         if not all(isinstance(self.result.get(key), dict) for key in ("joints", "series")):
-            raise ReportError(f"{path}: no output of codesign efforts --json, which has joints and series, nor of codesign linearize --json")
+            raise ReportError(f"{path}: no output of codesign efforts --json, which has joints and series, nor of codesign linearize --json or codesign tradeoff --json")
         self.name = os.path.splitext(os.path.basename(path))[0]
         self.series = self.result["series"]
         self.in_postures = "time" not in self.series

@@ -146,7 +146,7 @@ def find_job(path):
             raise ReportError(f"{path}: the folder {folder} with the files of this job is not beside the bag; jobs before 0.2 have none, "
                               "simulate or optimize again")
     else:
-        raise ReportError(f"{path}: neither a folder nor a bag nor a file of codesign efforts --json or codesign linearize --json")
+        raise ReportError(f"{path}: neither a folder nor a bag nor a file of codesign efforts --json, codesign linearize --json or codesign tradeoff --json")
     if not any(os.path.isfile(os.path.join(folder, name)) for name in ("result.json", "identification.json")):
         raise ReportError(f"{folder}: no result.json and no identification.json; "
                           "codesign optimize --output and codesign identify --output write them")

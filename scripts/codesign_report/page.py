@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 import jinja2
 
-from . import asked, drawing, efforts, geometry, linear, numbers, results, signals, words
+from . import asked, drawing, efforts, geometry, linear, numbers, results, signals, tradeoff, words
 from .job import ReportError, find_job, read_json, read_text
 from .numbers import Markup
 
@@ -138,11 +138,13 @@ def environment():
 
 
 def find(path):
-    """What a page can show: the linearization or the efforts of a JSON file, or a job."""
+    """What a page can show: the trade-off, the linearization or the efforts of a JSON file, or a job."""
     path = os.path.abspath(path)
     if not (path.endswith(".json") and os.path.isfile(path)):
         return find_job(path)
     result = read_json(path)
+    if tradeoff.is_one(result):
+        return tradeoff.Tradeoff(path, result)
     return linear.Linearization(path, result) if linear.is_one(result) else efforts.Efforts(path, result)
 
 
@@ -157,6 +159,8 @@ def render(job):
         return shown(environment().get_template("efforts.html.j2").render(efforts.context(job)))
     if isinstance(job, linear.Linearization):
         return shown(environment().get_template("linear.html.j2").render(linear.context(job)))
+    if isinstance(job, tradeoff.Tradeoff):
+        return shown(environment().get_template("tradeoff.html.j2").render(tradeoff.context(job)))
     template = environment().get_template("page.html.j2")
     for scale in (1.0, 0.5, 0.2, 0.0):
         text = shown(template.render(context(job, scale)))

@@ -6,6 +6,9 @@ TERMINATIONS = {
     "objective_value_reached": "The search reached the value of the objective that was asked for.",
     "objective_tolerance_reached": "The search converged: the last steps changed the objective by less than its tolerance.",
     "parameter_tolerance_reached": "The search converged: the last steps changed the parameters by less than their tolerance.",
+    "all_combinations_searched": "Each combination of what is chosen was searched; the best one is shown.",
+    "combinations_bounded": "Each combination of what is chosen was searched, or left out since its relaxation was worse than the one shown; "
+                            "that holds where the searches of relaxations have found their least values.",
     "max_evaluations_reached": "The search used all its evaluations before it converged; the best point so far is shown. "
                                "A larger optimizer.max_evaluations, or going on from this result, may improve it.",
     "stopped_early": "The search stopped on a slope: its algorithms gained nothing more, but the point is not an optimum. "
@@ -20,7 +23,8 @@ TERMINATIONS = {
 }
 
 # Terminations of a search that converged.
-SUCCESSES = ("success", "objective_tolerance_reached", "parameter_tolerance_reached", "roundoff_limited")
+SUCCESSES = ("success", "objective_tolerance_reached", "parameter_tolerance_reached", "roundoff_limited", "all_combinations_searched",
+             "combinations_bounded")
 
 
 def termination(code):

@@ -74,6 +74,13 @@ void set_samples(const std::string& text, Arguments* arguments) {
     throw UsageError("--samples: " + text + " is less than 2, the first and the last instant");
 }
 
+void set_points(const std::string& text, Arguments* arguments) {
+  const char* const end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data(), end, arguments->points);
+  if (error != std::errc() || last != end || arguments->points < 1)
+    throw UsageError("--points: \"" + text + "\" is not a whole number of points");
+}
+
 void set_method(const std::string& text, Arguments* arguments) {
   arguments->verify = true;
   arguments->each_parameter = !text.empty();
@@ -117,8 +124,9 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
-  static const Names kOfDesigns = {"check",     "urdf",     "simulate", "efforts",  "equilibrium",
-                                   "linearize", "gradient", "optimize", "identify", "excite"};
+  static const Names kOfDesigns = {"check",       "urdf",      "simulate", "efforts",
+                                   "equilibrium", "linearize", "gradient", "optimize",
+                                   "tradeoff",    "identify",  "excite"};
   static const std::map<std::string, Option> kOptions = {
       {"--overlay",
        {Value::kRequired,
@@ -146,8 +154,9 @@ const std::map<std::string, Option>& options() {
       {"--at", {Value::kRequired, {"linearize"}, set_time}},
       {"--csv",
        {Value::kRequired,
-        {"simulate", "efforts", "linearize"},
+        {"simulate", "efforts", "linearize", "tradeoff"},
         [](const std::string& text, Arguments* to) { to->csv = text; }}},
+      {"--points", {Value::kRequired, {"tradeoff"}, set_points}},
       {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
       {"--output",

@@ -22,7 +22,7 @@ class UsageError : public std::runtime_error {
 struct Arguments {
   std::string topic;  ///< help; the command that it is about, empty: all
   /// check, urdf, overlay, simulate, efforts, equilibrium, linearize, gradient, optimize, identify,
-  /// excite, new, help or version
+  /// tradeoff, excite, new, help or version
   std::string command;
   std::string model;  ///< path; new: of the folder to be made, empty: the machines are listed
   std::string study;  ///< path; empty: none given
@@ -39,7 +39,8 @@ struct Arguments {
   /// equilibrium, linearize; what of friction about rest counts
   LinearFriction friction = LinearFriction::kOff;
   double time = -1.0;           ///< linearize; [s] of the run, negative: about the equilibrium
-  std::string csv;              ///< simulate, efforts, linearize; empty: standard output
+  std::string csv;              ///< simulate, efforts, linearize, tradeoff; empty: standard output
+  int points = 0;               ///< tradeoff; 0: the default
   int samples = 101;            ///< simulate, efforts; equally spaced instants, at least 2
   bool verify = false;          ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions

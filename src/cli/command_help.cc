@@ -70,6 +70,12 @@ const CommandHelp kCommands[] = {
                            the search (doc/results.md); best.urdf and best.json while it runs
     --resume DIR           go on with the optimization of DIR/journal.jsonl, killed or cancelled
 )"},
+    {"tradeoff",
+     R"(  tradeoff MODEL STUDY     the curve of best designs between the objectives of the study's tradeoff;
+                           Ctrl-C ends with the points so far
+    --points N             number of points, by default 11; of three objectives along a side, 5
+    --csv FILE             the points as a table
+)"},
     {"identify",
      R"(  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf,
@@ -87,7 +93,8 @@ const CommandHelp kCommands[] = {
     {"report",
      R"(  report DIR|BAG           a page with all that an optimization or identification has found, or
                            with the curves and maps of a file of efforts --json, or the margins,
-                           diagrams and poles of a file of linearize --json
+                           diagrams and poles of a file of linearize --json, or the curve and
+                           designs of a file of tradeoff --json
     -o FILE                the page; by default report.html
 )"},
     {"apply",

@@ -20,6 +20,7 @@ int urdf(const Arguments& arguments, const Console& console);
 int overlay(const Arguments& arguments, const Console& console);
 int gradient(const Arguments& arguments, const Console& console);
 int optimize(const Arguments& arguments, const Console& console);
+int tradeoff(const Arguments& arguments, const Console& console);
 int identify(const Arguments& arguments, const Console& console);
 int excite(const Arguments& arguments, const Console& console);
 

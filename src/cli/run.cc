@@ -28,6 +28,7 @@ int dispatch(const Arguments& arguments, const Console& console) {
   if (arguments.command == "linearize") return linearize(arguments, console);
   if (arguments.command == "gradient") return gradient(arguments, console);
   if (arguments.command == "optimize") return optimize(arguments, console);
+  if (arguments.command == "tradeoff") return tradeoff(arguments, console);
   if (arguments.command == "identify") return identify(arguments, console);
   if (arguments.command == "excite") return excite(arguments, console);
   if (arguments.command == "new") {

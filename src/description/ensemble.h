@@ -96,6 +96,9 @@ struct RobustOptions {
   int validate = 0;  ///< fresh samples at the optimum; 0: none
   FailedSamples failed = FailedSamples::kRefuse;
   SourceLocation where;
+  /// Of kWorst: the number of each scenario's group, from 0, whose weighted mean is one of the
+  /// values; empty: each scenario is one. No file gives them.
+  std::vector<int> groups{};
 };
 
 /// One entry of `runs:`: a change of the study.

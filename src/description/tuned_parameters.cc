@@ -165,6 +165,27 @@ const Parameter& tuned_parameter(const MotionStudy& study, Eigen::Index k) {
   return study.parameters[to_index(study.tuned[to_index(k)])];
 }
 
+std::string row_text(const ParameterChoice& choice, std::size_t row) {
+  if (!choice.labels.empty()) return choice.labels[row];
+  std::string text;
+  for (const double value : choice.rows[row])
+    text += (text.empty() ? "" : ", ") + to_decimal(value);
+  return choice.parameters.size() > 1 ? "(" + text + ")" : text;
+}
+
+std::vector<Eigen::Index> places_of(const ParameterChoice& choice, const Study& study) {
+  std::vector<Eigen::Index> places;
+  for (const int parameter : choice.parameters) {
+    const auto found = std::find(study.tuned.begin(), study.tuned.end(), parameter);
+    if (found != study.tuned.end()) places.push_back(found - study.tuned.begin());
+  }
+  if (!places.empty() && places.size() < choice.parameters.size())
+    throw InputError({choice.where, choice.element,
+                      "some of the parameters of this list are tuned, and others are not",
+                      choice.name, "all of them, or none"});
+  return places;
+}
+
 std::vector<std::string> tuned_names(const MotionStudy& study) {
   std::vector<std::string> names;
   names.reserve(study.tuned.size());

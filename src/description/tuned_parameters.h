@@ -70,6 +70,12 @@ std::optional<InputFault> find_missing_bounds(const Parameter& parameter);
 /// The parameter of entry k of rho.
 const Parameter& tuned_parameter(const MotionStudy& study, Eigen::Index k);
 
+/// A row of a list to choose from: its label, or its numbers.
+std::string row_text(const ParameterChoice& choice, std::size_t row);
+/// The place in rho of each parameter of a choice. @throws InputError if some of them are not
+/// tuned; empty if none is
+std::vector<Eigen::Index> places_of(const ParameterChoice& choice, const Study& study);
+
 /// Names of the tuned parameters, in the order of rho.
 std::vector<std::string> tuned_names(const MotionStudy& study);
 

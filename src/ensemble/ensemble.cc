@@ -105,6 +105,10 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
     if (result.total.extremes.values.size() > 0) result.extremes = {result.total.extremes};
     return result;
   }
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    members[k].objective = (members[k].objective - scenarios_[k].offset) / scenarios_[k].scale;
+    members[k].gradient /= scenarios_[k].scale;
+  }
   for (const Evaluation& member : members) {
     result.total.statistics += member.statistics;
     add_new_codes(member.warnings, &result.total.warnings);
@@ -113,8 +117,11 @@ EnsembleEvaluation Ensemble::evaluate(const Eigen::VectorXd& rho, Derivatives de
   result.total.events.list = std::move(members.front().events.list);
   add_new_codes(engine_->warnings(), &result.total.warnings);
   if (!collect(members, with_gradient, &result)) return result;
-  for (Evaluation& member : members)
-    if (member.extremes.values.size() > 0) result.extremes.push_back(std::move(member.extremes));
+  const bool is_watched = std::any_of(members.begin(), members.end(), [](const Evaluation& member) {
+    return member.extremes.values.size() > 0;
+  });
+  for (std::size_t k = 0; is_watched && k < members.size(); ++k)
+    result.extremes.push_back(std::move(members[k].extremes));
   const Measured measured = measure(options_, result.values, weights_);
   result.total.objective = measured.value;
   result.by_value = measured.by_value;

@@ -26,6 +26,10 @@ struct Scenario {
   std::shared_ptr<const CompiledSystem> system;
   /// values of parameters (index in Study::parameters) that differ from their start values
   std::vector<std::pair<int, double>> values;
+  /// What an ensemble of several scenarios takes for psi: (psi - offset) / scale.
+  double offset = 0.0, scale = 1.0;
+  /// Whether an earlier scenario has the same motion, so that its bounds on signals are these.
+  bool repeats_bounds = false;
 
   /// Values of all named parameters at a design.
   std::vector<double> parameters(const Eigen::VectorXd& rho) const;

@@ -90,6 +90,14 @@ Json constraints_json(const Problem& problem, const OptimizationResult& result) 
   return list;
 }
 
+Json choice_json(const ChoiceResult& choice) {
+  Json chosen = Json::object();
+  for (const auto& [list, row] : choice.chosen) chosen[list] = row;
+  Json object = {{"chosen", std::move(chosen)}};
+  add_fields(choice, &object);
+  return object;
+}
+
 /// How near the point is to an optimum, which bounds hold it, and where the optimum is not one
 /// point.
 void add_optimality(const std::vector<std::string>& names, const OptimizationResult& result,
@@ -124,6 +132,7 @@ Json optimization_json(const Problem& problem, const OptimizationResult& result)
   }
   add_fields(result.cost, &object);
   object["termination"] = result.termination;
+  if (result.choice.combinations > 0.0) object["choice"] = choice_json(result.choice);
   if (!result.algorithm.empty()) object["algorithm"] = result.algorithm;
   if (std::isfinite(result.optimality.stationarity)) add_optimality(names, result, &object);
   add_statistics(result.cost.statistics, &object);

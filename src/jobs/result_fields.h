@@ -128,6 +128,15 @@ constexpr auto fields_of(const SearchCost*) {
                          field("failed_evaluations", &SearchCost::failed_evaluations));
 }
 
+/// Without what was chosen.
+constexpr auto fields_of(const ChoiceResult*) {
+  return std::make_tuple(
+      field("combinations", &ChoiceResult::combinations),
+      field("searched", &ChoiceResult::searched), field("relaxations", &ChoiceResult::relaxations),
+      field("bounded", &ChoiceResult::bounded), field("infeasible", &ChoiceResult::infeasible),
+      field("complete", &ChoiceResult::is_complete));
+}
+
 constexpr OrNull bound_or_null(double bound) { return {bound, !std::isfinite(bound)}; }
 
 /// Without the scenarios of the smallest and the largest value.

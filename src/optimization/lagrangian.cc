@@ -131,7 +131,8 @@ void count_range_of_run(const Scenario& scenario, const Eigen::VectorXd& rho,
   const std::vector<WatchedSignal>& bounds = scenario.system->whole_study().watched;
   std::vector<SignalDescription> signals;
   std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < watched->size(); ++k) {
+  // Behind those of the scenario are terms of others, which have no bounds.
+  for (std::size_t k = 0; k < std::min(bounds.size(), watched->size()); ++k) {
     if (bounds[k].role != WatchedSignal::Role::kFinal || bounds[k].tolerance) continue;
     signals.push_back(bounds[k].signal);
     places.push_back(k);

@@ -186,7 +186,7 @@ class Multistart {
   /// The rounds of a worst case have the evaluations of a search.
   void go_on(int start, Ensemble* ensemble, OptimizationResult* best) {
     const SearchCost sums = std::exchange(best->cost, SearchCost());
-    add_worst_points(problem_, options_, observer_.of(start), cancel_, ensemble, best);
+    add_worst_points(problem_, study_, options_, observer_.of(start), cancel_, ensemble, best);
     best->cost.iterations += sums.iterations;
     best->cost.evaluations += sums.evaluations;
     best->cost.failed_evaluations += sums.failed_evaluations;

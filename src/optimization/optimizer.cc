@@ -4,6 +4,7 @@
 #include "engine/dispatcher.h"
 #include "equations/compiled_system.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/choice_search.h"
 #include "optimization/confirmation.h"
 #include "optimization/local_search.h"
 #include "optimization/multistart.h"
@@ -48,7 +49,7 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
   const TrialObserver observer = counted_trials(hooks, meter);
   OptimizationResult result =
       search_locally(study_of(problem), options, problem.start(), ensemble, observer, cancel);
-  add_worst_points(problem, options, observer, cancel, &ensemble, &result);
+  add_worst_points(problem, study_of(problem), options, observer, cancel, &ensemble, &result);
   confirm_stop(study_of(problem), options, ensemble, cancel, &result);
   describe_scenarios(problem, ensemble, cancel, meter, &result);
   return result;
@@ -59,7 +60,9 @@ OptimizationResult search_once(const Problem& problem, const OptimizerOptions& o
 OptimizationResult run_search(const Problem& problem, const OptimizerOptions& options,
                               const SearchHooks& hooks, const std::atomic<bool>* cancel) {
   require_tuned(study_of(problem));
-  OptimizationResult result = study_of(problem).ensemble.multistart.starts > 0
+  OptimizationResult result = has_choices(study_of(problem))
+                                  ? search_choices(problem, options, hooks, cancel)
+                              : study_of(problem).ensemble.multistart.starts > 0
                                   ? search_from_many_starts(problem, options, hooks, cancel)
                                   : search_once(problem, options, hooks, cancel);
   if (result.status.code != StatusCode::kCancelled || hooks.ranks == nullptr) return result;

@@ -144,6 +144,7 @@ std::string outcome_text(const Problem& problem, const OptimizationResult& resul
         << readable(result.best.objective) << '\n';
   else if (has_objective(problem, result))
     out << "objective " << readable(result.best.objective) << " at the best point of screening\n";
+  for (const auto& [list, row] : result.choice.chosen) out << list << ": " << row << " is chosen\n";
   for (const std::string& sentence : watched_sentences(result)) out << sentence << '\n';
   for (const std::string& sentence : ensemble_sentences(problem, result)) out << sentence << '\n';
   out << result.termination << " after " << result.cost.iterations << " iterations, "

@@ -55,9 +55,10 @@ class SharedObserver {
  public:
   explicit SharedObserver(const TrialObserver& observer) : observer_(observer) {}
 
-  /// The observer of one search. @param start number of the search from 1.
-  TrialObserver of(int start) {
-    return [this, start](const Trial& trial) { return notify(trial, start); };
+  /// The observer of one search. @param start number of the search from 1. @param is_real false:
+  /// its points are no designs, and none of them is the best.
+  TrialObserver of(int start, bool is_real = true) {
+    return [this, start, is_real](const Trial& trial) { return notify(trial, start, is_real); };
   }
   /// Whether the observer has ended the job; all searches then end at their next trial.
   bool is_stopped() {
@@ -66,19 +67,19 @@ class SharedObserver {
   }
 
  private:
-  bool notify(Trial trial, int start) {
+  bool notify(Trial trial, int start, bool is_real) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (stopped_) return false;
     trial.start = start;
     trial.evaluation = ++evaluations_;
     const std::pair<double, double> rank{trial.best_violation, trial.best_objective};
-    if (trial.status.ok() && (!has_best_ || rank < best_)) {
+    if (is_real && trial.status.ok() && (!has_best_ || rank < best_)) {
       if (has_best_) ++iterations_;
       has_best_ = true;
       best_ = rank;
     }
     trial.iteration = iterations_;
-    std::tie(trial.best_violation, trial.best_objective) = best_;
+    if (has_best_ || is_real) std::tie(trial.best_violation, trial.best_objective) = best_;
     stopped_ = observer_ && !observer_(trial);
     return !stopped_;
   }

@@ -290,7 +290,35 @@ Scenario scenario_of(const Problem& problem, const ScenarioResult& result) {
   return scenario;
 }
 
+namespace {
+
+std::string count_of(int number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+/// What is claimed of a design that was chosen from lists.
+std::string choice_sentence(const OptimizationResult& result) {
+  const ChoiceResult& choice = result.choice;
+  const std::string all = readable(choice.combinations, 10);
+  std::string text =
+      "best of the " + count_of(choice.searched, "combination") + " searched, of " + all;
+  if (choice.is_complete && choice.relaxations == 0)
+    text = "best of " + all + " combinations, each searched";
+  else if (choice.is_complete)
+    text = "best of " + all + " combinations: " + std::to_string(choice.searched) +
+           " searched, the others left out by the bounds of " +
+           count_of(choice.relaxations, "relaxation") +
+           ", which hold where the search of a relaxation has found its least value";
+  if (!std::isfinite(result.optimality.stationarity)) return text;
+  return text + "; the parameters that are not chosen are stationary to " +
+         readable(result.optimality.stationarity, 2) +
+         (result.termination == "stopped_early" ? " only" : "") + describe_confirmation(result);
+}
+
+}  // namespace
+
 std::string stop_sentence(const OptimizationResult& result) {
+  if (result.choice.combinations > 0.0) return choice_sentence(result);
   if (!result.optimality.unjudged.empty())
     return std::string(result.termination == "stopped_early" ? "stopped early: " : "") +
            "no slope tells whether this is an optimum: " + result.optimality.unjudged;

@@ -8,12 +8,15 @@
 
 #include "description/motion_study.h"
 #include "math/arrays.h"
+#include "sampling/measure.h"
 #include "sensitivity/signal_watch.h"
 
 namespace codesign {
 
 SlackForm::SlackForm(const RobustOptions& options, Eigen::VectorXd weights)
-    : measure_(options.measure), level_(options.level), weights_(std::move(weights)) {}
+    : measure_(options.measure), level_(options.level), weights_(std::move(weights)) {
+  grouped(options, Eigen::VectorXd::Zero(weights_.size()), weights_, &shares_);
+}
 
 int SlackForm::variables() const {
   if (weights_.size() <= 1) return 0;

@@ -24,8 +24,13 @@ class SlackForm {
 
   /// Number of slack variables.
   int variables() const;
-  /// Number of constraints psi_i - t - z_i <= 0: one per scenario, or none without slack variables.
-  int constraints() const { return variables() > 0 ? static_cast<int>(weights_.size()) : 0; }
+  /// Number of constraints psi_i - t - z_i <= 0: one per scenario, of groups one per group with
+  /// its mean as psi_i, or none without slack variables.
+  int constraints() const { return variables() > 0 ? static_cast<int>(shares_.rows()) : 0; }
+  /// The share of each scenario in psi_i of constraint i, sum 1.
+  double share(int i, std::size_t scenario) const {
+    return shares_(i, static_cast<Eigen::Index>(scenario));
+  }
   /// The lower bound of slack variable k: minus infinity for t, 0 for z.
   double lower(int k) const;
 
@@ -44,6 +49,7 @@ class SlackForm {
   RobustMeasure measure_;
   double level_;
   Eigen::VectorXd weights_;
+  Eigen::MatrixXd shares_;  ///< one row per constraint
 };
 
 /// One smooth constraint on a watched signal in one scenario, theory (24d). With x the value at an

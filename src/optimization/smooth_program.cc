@@ -69,8 +69,14 @@ SmoothProgram::SmoothProgram(const Ensemble& ensemble)
                          measure == WatchedSignal::Measure::kMinimum);
     }
     is_free_.insert(is_free_.end(), rows.centres().size(), true);
-    for (const SignalRow& row : rows.inequalities()) inequality_places_.push_back({i, &row});
-    for (const SignalRow& row : rows.equalities()) equality_places_.push_back({i, &row});
+    const std::vector<WatchedSignal>& watched = scenarios[i].system->whole_study().watched;
+    const auto counts = [&](const SignalRow& row) {
+      return !scenarios[i].repeats_bounds || is_term(watched[row.watched]);
+    };
+    for (const SignalRow& row : rows.inequalities())
+      if (counts(row)) inequality_places_.push_back({i, &row});
+    for (const SignalRow& row : rows.equalities())
+      if (counts(row)) equality_places_.push_back({i, &row});
   }
   inequality_rows_ = static_cast<int>(inequality_places_.size());
   equality_rows_ = static_cast<int>(equality_places_.size());
@@ -131,9 +137,10 @@ void SmoothProgram::take(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
       Eigen::VectorXd of_peak = Eigen::VectorXd::Zero(rho.size());
       const std::size_t watched = rows_[i].peaks()[to_index(j)];
-      smooth_values_[column] -= watched_term(
-          peak_signal(i, j), rows_[i].layout().entries()[watched], all.extremes[i], &of_peak);
-      smooth_gradients_.col(column) -= of_peak;
+      const double term = watched_term(peak_signal(i, j), rows_[i].layout().entries()[watched],
+                                       all.extremes[i], &of_peak);
+      smooth_values_[column] -= term / scenario.scale;
+      smooth_gradients_.col(column) -= of_peak / scenario.scale;
     }
   }
 }
@@ -175,7 +182,7 @@ double SmoothProgram::peak_factor(std::size_t scenario, int peak) const {
   const WatchedSignal& watched = peak_signal(scenario, peak);
   const bool is_stroke = watched.measure == WatchedSignal::Measure::kStroke;
   return (is_stroke ? 2.0 : 1.0) * std::abs(watched.weight) *
-         unit_of(peak_variable(scenario, peak)) / unit_;
+         unit_of(peak_variable(scenario, peak)) / (unit_ * ensemble_.scenarios()[scenario].scale);
 }
 
 SmoothProgram::Value SmoothProgram::signal_value(const WatchedRow& place) const {
@@ -212,14 +219,19 @@ SmoothProgram::Value SmoothProgram::inequality(int row, const Eigen::VectorXd& s
     return result;
   }
   Value result = blank();
-  const auto i = to_index(row);
-  double psi = smooth_values_[row] / unit_;
-  for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
-    result.by_slack[peak_variable(i, j)] = peak_factor(i, j);
-    psi += peak_factor(i, j) * slack[peak_variable(i, j)];
+  double psi = 0.0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double share = slack_.share(row, i);
+    if (share == 0.0) continue;
+    psi += share * smooth_values_[to_signed(i)] / unit_;
+    result.by_rho += share * smooth_gradients_.col(to_signed(i)) / unit_;
+    for (int j = 0; j < static_cast<int>(rows_[i].peaks().size()); ++j) {
+      const double factor = share * peak_factor(i, j);
+      result.by_slack[peak_variable(i, j)] = factor;
+      psi += factor * slack[peak_variable(i, j)];
+    }
   }
   result.value = slack_.constraint(row, psi, slack.head(slack_.variables()));
-  result.by_rho = smooth_gradients_.col(row) / unit_;
   for (int k = 0; k < slack_.variables(); ++k) result.by_slack[k] = slack_.by_slack(row, k);
   return result;
 }
@@ -236,19 +248,32 @@ std::vector<WatchedResult> SmoothProgram::describe(const std::vector<Extremes>& 
   Scenario nominal = ensemble_.scenarios().front();
   nominal.values.clear();
   const std::vector<double> parameters = nominal.parameters(rho);
-  for (const WatchedSignal& signal : nominal.system->whole_study().watched)
+  // Scenarios of different objectives watch the same bounds, and terms of their own.
+  std::vector<const WatchedSignal*> watched;
+  const auto place_of = [&](const WatchedSignal& signal) {
+    const auto is_same = [&signal](const WatchedSignal* other) {
+      return other->element == signal.element &&
+             codesign::describe(*other) == codesign::describe(signal);
+    };
+    const auto found = std::find_if(watched.begin(), watched.end(), is_same);
+    if (found != watched.end()) return static_cast<std::size_t>(found - watched.begin());
+    watched.push_back(&signal);
     results.push_back(describe_bounds(signal, parameters));
-  for (std::size_t i = 0; i < rows_.size(); ++i)
-    for (std::size_t k = 0; k < results.size(); ++k) {
+    return results.size() - 1;
+  };
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const std::vector<WatchedSignal>& own = ensemble_.scenarios()[i].system->whole_study().watched;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      const std::size_t place = place_of(own[k]);
       widen(rows_[i].layout().entries()[k], extremes[i], initial[i], static_cast<int>(i),
-            &results[k]);
-      results[k].violation =
-          std::max(results[k].violation,
+            &results[place]);
+      results[place].violation =
+          std::max(results[place].violation,
                    rows_[i].violation(k, extremes[i], ensemble_.scenarios()[i].parameters(rho)));
     }
-  const std::vector<WatchedSignal>& watched = nominal.system->whole_study().watched;
+  }
   for (std::size_t k = 0; k < results.size(); ++k)
-    results[k].tolerance = watched[k].tolerance.value_or(tolerance_of_range(results[k]));
+    results[k].tolerance = watched[k]->tolerance.value_or(tolerance_of_range(results[k]));
   return results;
 }
 

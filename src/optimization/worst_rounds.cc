@@ -21,11 +21,11 @@ constexpr double kSamePromise = 1e-4;  // of the objective
 
 class WorstRounds {
  public:
-  WorstRounds(const Problem& problem, const OptimizerOptions& options,
+  WorstRounds(const Problem& problem, const Study& study, const OptimizerOptions& options,
               const TrialObserver& observer, const std::atomic<bool>* cancel, Ensemble* ensemble,
               OptimizationResult* result)
       : problem_(problem),
-        study_(study_of(problem)),
+        study_(study),
         options_(options),
         observer_(observer),
         cancel_(cancel),
@@ -126,10 +126,10 @@ class WorstRounds {
 
 }  // namespace
 
-void add_worst_points(const Problem& problem, const OptimizerOptions& options,
+void add_worst_points(const Problem& problem, const Study& study, const OptimizerOptions& options,
                       const TrialObserver& observer, const std::atomic<bool>* cancel,
                       Ensemble* ensemble, OptimizationResult* result) {
-  WorstRounds(problem, options, observer, cancel, ensemble, result).run();
+  WorstRounds(problem, study, options, observer, cancel, ensemble, result).run();
 }
 
 }  // namespace codesign

@@ -14,8 +14,8 @@ namespace codesign {
 /// kMostWorstRounds times, then the warning `worst_between_samples` tells what is left. Does
 /// nothing for other measures, and for searches without a point.
 /// @param ensemble of the search; gets the samples. @param result of the search; that of the last
-/// one, its start evaluated with all samples.
-void add_worst_points(const Problem& problem, const OptimizerOptions& options,
+/// one, its start evaluated with all samples. @param study of the search.
+void add_worst_points(const Problem& problem, const Study& study, const OptimizerOptions& options,
                       const TrialObserver& observer, const std::atomic<bool>* cancel,
                       Ensemble* ensemble, OptimizationResult* result);
 

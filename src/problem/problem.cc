@@ -356,6 +356,11 @@ Problem load_portable(const PortableProblem& portable) {
 
 void require_objective(const Problem& problem) {
   const Study& study = study_of(problem);
+  if (!study.tradeoff.empty())
+    throw InputError({study.tradeoff.front().where, "tradeoff",
+                      "the study has several objectives, and this needs one: `codesign tradeoff` "
+                      "computes the curve between them",
+                      std::to_string(study.tradeoff.size()) + " objectives", "objective"});
   if (!has_objective(study))
     throw InputError(
         {{study.file, 1},

@@ -61,6 +61,7 @@ void require_compatible(const Study& study) {
   for (const UncertainQuantity& quantity : study.ensemble.uncertain)
     if (quantity.parameter >= 0 && is_tuned(study, quantity.name))
       throw tuned_error(quantity.where, "uncertain." + quantity.name, quantity.name);
+  for (const ParameterChoice& choice : study.choices) static_cast<void>(places_of(choice, study));
   if (study.ensemble.multistart.starts == 0) return;
   for (int index : study.tuned)
     if (const auto fault = find_missing_bounds(study.parameters[to_index(index)]))

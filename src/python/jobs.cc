@@ -15,6 +15,7 @@
 #include "jobs/json_records.h"
 #include "jobs/optimization_records.h"
 #include "jobs/result_folder.h"
+#include "jobs/tradeoff_records.h"
 #include "jobs/trial_lines.h"
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
@@ -154,6 +155,24 @@ std::vector<Failure> write_folder(const Optimized& optimized, const std::string&
   const std::vector<Failure> of_runs = files.write_runs(optimized.result, cancel);
   failures.insert(failures.end(), of_runs.begin(), of_runs.end());
   return failures;
+}
+
+Traded tradeoff(const Problem& problem, int points, const Tell& tell,
+                const std::atomic<bool>* cancel) {
+  require_engine(study_of(problem).ensemble.engine, nullptr);
+  std::vector<std::string> names;
+  for (const TradeoffObjective& objective : study_of(problem).tradeoff)
+    names.push_back(objective.name);
+  const auto observer = [&](const TradeoffPoint& point, int done, int of) {
+    if (!tell) return true;
+    Json fields = point_json(problem, names, point);
+    fields["done"] = done;
+    fields["of"] = of;
+    return tell(tradeoff_line(names, point, done, of), fields);
+  };
+  Traded traded{problem, find_tradeoff(problem, points, observer, cancel), {}};
+  traded.json = tradeoff_report(problem, traded.result);
+  return traded;
 }
 
 Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,

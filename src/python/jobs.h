@@ -11,6 +11,7 @@
 #include "jobs/files.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/optimization.h"
+#include "optimization/tradeoff.h"
 #include "problem/load_problem.h"
 
 namespace codesign::python {
@@ -34,6 +35,17 @@ Optimized optimize(const Problem& problem, const Tell& tell, const std::atomic<b
 /// it is not there. @throws InputError if a file would replace one from which the problem was read
 std::vector<Failure> write_folder(const Optimized& optimized, const std::string& folder,
                                   const std::atomic<bool>* cancel);
+
+/// A finished trade-off.
+struct Traded {
+  Problem problem;
+  TradeoffResult result;
+  std::string json;  ///< the text of `codesign tradeoff --json`
+};
+
+/// `codesign tradeoff`. @param points 0: the default. @throws InputError as the command line
+Traded tradeoff(const Problem& problem, int points, const Tell& tell,
+                const std::atomic<bool>* cancel);
 
 /// A recording as a program has it.
 struct RecordedArrays {

@@ -232,6 +232,17 @@ void require_written(const std::vector<Failure>& failures, const std::string& fo
   throw OutputError(folder, causes);
 }
 
+void add_tradeoffs(py::module_* module) {
+  made_here<Traded>(module, "Traded")
+      .def_property_readonly("record", &record_of<Traded>)
+      .def_property_readonly("status",
+                             [](const Traded& of) { return to_python(to_json(of.result.status)); })
+      .def_property_readonly(
+          "warnings", [](const Traded& of) { return to_python(to_json(of.result.warnings)); })
+      .def_property_readonly("text",
+                             [](const Traded& of) { return tradeoff_text(of.problem, of.result); });
+}
+
 void add_jobs(py::module_* module) {
   made_here<Optimized>(module, "Optimized")
       .def_property_readonly("record", &record_of<Optimized>)
@@ -325,6 +336,12 @@ void add_session(py::module_* module) {
                return optimize(of.problem(), tell, stop);
              });
            })
+      .def("tradeoff",
+           [](const Session& of, int points, const py::object& progress, const py::object& cancel) {
+             return job(progress, cancel, [&](const Tell& tell, const std::atomic<bool>* stop) {
+               return tradeoff(of.problem(), points, tell, stop);
+             });
+           })
       .def("identify", [](const Session& of, const py::object& time, const py::list& columns,
                           const py::object& progress, const py::object& cancel) {
         const std::optional<RecordedArrays> arrays = arrays_of(time, columns);
@@ -347,5 +364,6 @@ PYBIND11_MODULE(_core, module) {
   });
   // Before the sessions that return them, whose signatures name them.
   codesign::python::add_jobs(&module);
+  codesign::python::add_tradeoffs(&module);
   codesign::python::add_session(&module);
 }

@@ -77,10 +77,39 @@ Measured conditional_value_at_risk(double level, const VectorXd& values, const V
 
 }  // namespace
 
+VectorXd grouped(const RobustOptions& options, const VectorXd& values, const VectorXd& weights,
+                 Eigen::MatrixXd* by_value) {
+  if (options.groups.empty()) {
+    if (by_value) by_value->setIdentity(values.size(), values.size());
+    return values;
+  }
+  const Index count = 1 + *std::max_element(options.groups.begin(), options.groups.end());
+  const auto group_of = [&options](Index i) { return Index{options.groups[to_index(i)]}; };
+  VectorXd sums = VectorXd::Zero(count), means = VectorXd::Zero(count);
+  for (Index i = 0; i < values.size(); ++i) sums[group_of(i)] += weights[i];
+  for (Index i = 0; i < values.size(); ++i)
+    means[group_of(i)] += weights[i] / sums[group_of(i)] * values[i];
+  if (!by_value) return means;
+  by_value->setZero(count, values.size());
+  for (Index i = 0; i < values.size(); ++i)
+    (*by_value)(group_of(i), i) = weights[i] / sums[group_of(i)];
+  return means;
+}
+
+namespace {
+
+Measured worst_mean(const RobustOptions& options, const VectorXd& values, const VectorXd& weights) {
+  Eigen::MatrixXd shares;
+  const Measured of_means = worst(grouped(options, values, weights, &shares));
+  return {of_means.value, shares.transpose() * of_means.by_value, of_means.threshold};
+}
+
+}  // namespace
+
 Measured measure(const RobustOptions& options, const VectorXd& values, const VectorXd& weights) {
   switch (options.measure) {
     case RobustMeasure::kWorst:
-      return worst(values);
+      return options.groups.empty() ? worst(values) : worst_mean(options, values, weights);
     case RobustMeasure::kCvar:
       return conditional_value_at_risk(options.level, values, weights);
     case RobustMeasure::kMeanPlusDeviation:

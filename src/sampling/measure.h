@@ -28,4 +28,9 @@ struct Measured {
 Measured measure(const RobustOptions& options, const Eigen::VectorXd& values,
                  const Eigen::VectorXd& weights);
 
+/// The values that `options` compares: the weighted means of its groups, or the values themselves.
+/// @param by_value if not null, the derivatives of each by all values, one per row.
+Eigen::VectorXd grouped(const RobustOptions& options, const Eigen::VectorXd& values,
+                        const Eigen::VectorXd& weights, Eigen::MatrixXd* by_value);
+
 }  // namespace codesign

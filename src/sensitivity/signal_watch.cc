@@ -22,9 +22,10 @@ constexpr double kRounding = 1e-14;  // fraction of the duration: where a step e
                                      // the two may differ by rounding
 constexpr int kBits = 50;            // accuracy of the instant of an extremum
 constexpr std::uintmax_t kMostIterations = 60;
-constexpr double kShort = 4.0;  // in units of what slopes are taken inside of a step
-constexpr double kNear = 1e-9;  // fraction of the duration: a number just inside a step beside one
-                                // at its end
+constexpr double kShort = 4.0;   // in units of what slopes are taken inside of a step
+constexpr double kAtEnd = 1e-7;  // fraction of the duration: nearer to an end that moves is at it
+constexpr double kNear = 1e-9;   // fraction of the duration: a number just inside a step beside one
+                                 // at its end
 
 bool jumps(double before, double after) {
   return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after));
@@ -127,8 +128,12 @@ void SignalWatch::follow(std::size_t k, double from, double to) {
   std::optional<double> break_time = layout_.break_near(to, slack);
   if (to < instants.front() - slack || curve.next >= instants.size()) return;
   const double begin = std::max(from, instants.front()), end = std::min(to, instants.back());
+  // Where an end that moves meets an instant, the value there moves with it: as a constant it would
+  // hold a search at this end.
+  const bool ends_run = has_moving_end(system_.study()) && integrator_->has_ended();
   const auto reach = [&](double time, double at) {
-    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack)
+    while (status_.ok() && curve.next < instants.size() && instants[curve.next] <= time + slack &&
+           !(ends_run && instants[curve.next] >= to - kAtEnd * system_.study().duration))
       reach_instant(k, at);
   };
   // Two guards that are zero at the same instant end steps whose slopes are rounding.

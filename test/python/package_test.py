@@ -108,7 +108,9 @@ class Documentation(unittest.TestCase):
         stage = codesign.Stage("searching", "searching", 1, 2, 3, 0.5)
         failure = codesign.ComputationError(result.status, None)
         fault = codesign.InputError({key: "" for key in ("file", "line", "element", "value", "allowed", "message")})
-        return [problem, problem.parameters[0], problem.simulate(), problem.linearize(), codesign.TransferFunction(np.zeros(1, complex), np.zeros(2, complex), 1.0, None), result, result.status, fit, fit.numbers["mass"], trials[0], trials[-1], stage,
+        lift = [f"{ROOT}/gallery/goods_lift/{file}" for file in ("model.urdf", "tradeoff.yaml")]
+        curve = codesign.Problem(*lift).tradeoff(points=3)
+        return [curve, curve.points[0], problem, problem.parameters[0], problem.simulate(), problem.linearize(), codesign.TransferFunction(np.zeros(1, complex), np.zeros(2, complex), 1.0, None), result, result.status, fit, fit.numbers["mass"], trials[0], trials[-1], stage,
                 failure, fault, codesign.Warning("code", "message")]
 
     def test_each_member_is_documented_with_shape_and_unit(self):

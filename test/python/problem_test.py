@@ -51,6 +51,40 @@ class Postures(unittest.TestCase):
             shipped("four_bar_path").adjoint()
 
 
+class Tradeoffs(unittest.TestCase):
+    STUDY = """duration: 20.0
+initial_state: {slide: {position: 1.0}}
+controllers: {hold: {type: state_feedback, output: slide, feedback: [{signal: slide/position, gain: "${k1}"}, {signal: slide/velocity, gain: "${k2}"}]}}
+parameters: {k1: {initial: 1.0, lower: 0.5, upper: 4.0}, k2: {initial: 1.0, lower: 0.5, upper: 4.0}}
+tradeoff:
+  - {name: error, objective: {integral: [{signal: slide/position}]}}
+  - {name: effort, objective: {integral: [{signal: hold/output}]}}
+"""
+    CART = """<robot name="cart"><link name="ground"/><link name="cart"><inertial><mass value="1"/>
+<inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link><joint name="slide" type="prismatic">
+<parent link="ground"/><child link="cart"/><axis xyz="1 0 0"/><limit lower="-5" upper="5" effort="100" velocity="10"/></joint></robot>"""
+
+    def test_a_curve_as_arrays(self):
+        lines = []
+        curve = codesign.Problem(self.CART, self.STUDY).tradeoff(points=5, progress=lines.append)
+        self.assertEqual((curve.names, curve.status.code, len(curve.points)), (["error", "effort"], "success", 5))
+        k1, k2 = curve.rho.T
+        np.testing.assert_allclose(curve.objectives[:, 1], k1 ** 2 / (2.0 * k2), rtol=1e-3)  # but for what is left after 20 s
+        self.assertTrue(np.all(np.diff(curve.objectives[:, 0]) > 0.0) and np.all(np.diff(curve.objectives[:, 1]) < 0.0))
+        self.assertEqual([line.done for line in lines], [1, 2, 3, 4, 5])
+        self.assertIn("point 5 of 5", str(lines[-1]))
+        self.assertIn("<svg", curve.report())
+        self.assertIn("on_curve", str(curve))
+
+    def test_a_progress_that_raises_ends_it(self):
+        with self.assertRaises(ZeroDivisionError):
+            codesign.Problem(self.CART, self.STUDY).tradeoff(progress=lambda point: 1 / 0)
+
+    def test_another_study_is_refused(self):
+        with self.assertRaises(codesign.InputError):
+            pendulum().tradeoff()
+
+
 class Linearizations(unittest.TestCase):
     def test_an_arm_under_computed_torque(self):
         model = shipped("two_link_arm").linearize(signals=["elbow/position"])

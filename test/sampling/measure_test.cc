@@ -161,5 +161,22 @@ TEST(Measure, OfABrakingDistanceWithUncertainFriction) {
   EXPECT_NEAR(measured(RobustMeasure::kWorst) / (1.0 / (0.4 * kGravity)), 1.0, 1e-3);
 }
 
+TEST(Measure, TheWorstOfGroupsIsThatOfTheirMeans) {
+  RobustOptions options;
+  options.measure = RobustMeasure::kWorst;
+  options.groups = {0, 1, 0, 1};
+  const Eigen::Vector4d values(1.0, 8.0, 5.0, 2.0), weights(0.1, 0.1, 0.3, 0.5);
+  const Measured measured = measure(options, values, weights);
+  EXPECT_NEAR(measured.value, (0.1 * 1.0 + 0.3 * 5.0) / 0.4, 1e-15);
+  EXPECT_TRUE(measured.by_value.isApprox(Eigen::Vector4d(0.25, 0.0, 0.75, 0.0)));
+  Eigen::MatrixXd shares;
+  const Eigen::VectorXd means = grouped(options, values, weights, &shares);
+  EXPECT_NEAR(means[1], (0.1 * 8.0 + 0.5 * 2.0) / 0.6, 1e-15);
+  EXPECT_TRUE(means.isApprox(shares * values));
+  options.groups.clear();
+  EXPECT_EQ(grouped(options, values, weights, &shares), values);
+  EXPECT_TRUE(shares.isIdentity());
+}
+
 }  // namespace
 }  // namespace codesign

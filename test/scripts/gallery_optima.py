@@ -89,6 +89,17 @@ def hoist_gear(efficiency=0.8):
     return {"gear": (0.1 * (weight + sqrt(weight ** 2 + 100.0 / (efficiency * 0.02))), 1e-4)}
 
 
+def lift_heat(T):
+    """The least integral of F^2 of a ride of 3 m from rest to rest in the time T, times 1e-5: W^2 T + 12 M^2 h^2/T^3."""
+    return 1e-5 * ((120.0 * G) ** 2 * T + 12.0 * (1120.0 * 3.0) ** 2 / T ** 3)
+
+
+def goods_lift():
+    """Its minimum is at T^4 = 36 M^2 h^2/W^2, with F = W + 6 M h/T^2 (1 - 2t/T) = 2 W (1 - t/T)."""
+    T = sqrt(6.0 * 1120.0 * 3.0 / (120.0 * G))
+    return {"T": (T, 1e-4), "a": (0.24 * G, 1e-3), "b": (-0.24 * G, 2e-3), "objective": (lift_heat(T), 1e-6)}
+
+
 def quarter_car_on_a_step():
     """The mean square of the body's acceleration over white noise is proportional to (m_b + m_w) k^2/c + c k_t, least at c = k sqrt((m_b + m_w)/k_t).
     Gobbi and Mastinu, Journal of Sound and Vibration 245, 2001."""
@@ -386,6 +397,7 @@ FURTHER = {
     "delta_robot": delta_further,
     "door_closer": lambda: {"is least at $\\zeta = ": door_damping()},
     "hoist_gear": lambda: {"without losses alone, the gear is ": hoist_gear(1.0)["gear"][0]},
+    "goods_lift": lambda: {"A ride of 1.5 s heats the motor ": lift_heat(1.5) / goods_lift()["objective"][0]},
     "quarter_car": lambda: {"the best damper is ": quarter_car_on_a_step()},
     "scara": lambda: {"with 1 ms and 0.5 ms the best `Kp` is ": least(lambda p, i, d: scara_cost(p, i, d, 1e-3, 5e-4), [4000.0, 10000.0, 100.0])[0]},
     "straight_line_four_bar": lambda: {"and leaves it by ": straight_line_error()},

@@ -125,6 +125,22 @@ class Gallery(unittest.TestCase):
                     (text,) = re.findall(re.escape(before) + r"([0-9]+(?:\.[0-9]+)?)", page)
                     self.assertTrue(is_rounded(text, value), f"{text} in place of {value}")
 
+    def test_the_curve_of_the_goods_lift(self):
+        study, (longest, _) = text_of("goods_lift", "tradeoff.yaml"), gallery_optima.goods_lift()["T"]
+        term, measure = "terminal: [{signal: end_time, loss: absolute}]", "maximum: [{signal: end_time}]"
+        self.assertIn(term, study)
+        for text in (study, study.replace(term, measure)):  # two ways to say it
+            with self.subTest(text=text), tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+                file.write(text)
+                file.flush()
+                curve = json.loads(self.run_program("tradeoff", os.path.join(GALLERY, "goods_lift", "model.urdf"), file.name, "--json", "--quiet"))
+                self.assertEqual({point["kind"] for point in curve["points"]}, {"on_curve"})
+                self.assertEqual(len(curve["points"]), 11)
+                for point in curve["points"]:
+                    time, heat = (point["objectives"][name] for name in ("time", "heat"))
+                    self.assertTrue(1.499 < time < longest * 1.001)
+                    self.assertAlmostEqual(heat / gallery_optima.lift_heat(time), 1.0, 3)
+
     def test_a_leg_that_swings_far_needs_stiffer_springs(self):
         springs = self.changed("swinging_leg", ("0.02", "0.4"), ("0.01", "0.2"))["parameters"]
         share = re.search(r"0.4 rad: the springs must be ([0-9.]+) % and ([0-9.]+) % stiffer", text_of("swinging_leg", "README.md"))

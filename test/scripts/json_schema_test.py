@@ -102,6 +102,20 @@ class Outputs(unittest.TestCase):
         self.check("linearize", *self.case("slider_crank"), "--at", "0.5")
         self.check("linearize", *self.case("slider_crank"), "--at", "50", code=2, schema="error")
 
+    def test_a_trade_off(self):
+        curve = self.check("tradeoff", "gallery/goods_lift/model.urdf", "gallery/goods_lift/tradeoff.yaml", "--points", "3")
+        self.assertEqual([point["anchor"] for point in curve["points"]], [True, False, True])
+
+    def test_choices(self):
+        with tempfile.TemporaryDirectory() as folder:
+            study = pathlib.Path(folder) / "study.yaml"
+            study.write_text("duration: 0.3\nparameters: {gear: {choice: [6, 14, 30]}}\n"
+                             "controllers: {motor: {type: state_feedback, output: lift, feedforward: \"${20*gear/0.1}\"}}\n"
+                             "objective: {terminal: [{signal: lift/position, reference: 2.0}]}\n")
+            result = self.check("optimize", "gallery/hoist_gear/model.urdf", study)
+        self.assertEqual(result["choice"]["chosen"], {"gear": "14"})
+        self.assertEqual((result["termination"], result["choice"]["searched"]), ("all_combinations_searched", 3))
+
     def test_postures_and_measures(self):
         self.check("simulate", *self.case("four_bar_path"))
         self.check("optimize", *self.case("six_bar_dwell"))

@@ -360,6 +360,25 @@ TEST_F(EndMotionTest, AConditionThatIsNotReachedIsAWarning) {
   EXPECT_EQ(run.warnings[0].where.line, 3);
 }
 
+/// The fourth of sixteen windows of 9 s ends at 2.25 s: a search that brings the end there goes on.
+TEST_F(EndMotionTest, AnInstantThatTheEndMeetsMovesWithIt) {
+  EndCase test = one_of_two_conditions();
+  test.study = R"(
+duration: "${T}"
+gravity: [0, 0, 0]
+parameters: {T: {initial: 3.0, lower: 1.5, upper: 9.0}}
+objective: {maximum: [{signal: end_time}]})";
+  const auto system = system_of_case(test, "{}");
+  for (const double end : {2.25, std::nextafter(2.25, 3.0), 2.25 + 1e-9}) {
+    std::vector<double> parameters = system->parameters();
+    parameters.back() = end;
+    const Evaluation run = evaluator_of(system).evaluate_design(parameters, true);
+    ASSERT_TRUE(run.status.ok()) << run.status.cause;
+    EXPECT_EQ(run.extremes.gradients.row(0).segment(3, 3), Eigen::RowVector3d(0.0, 1.0, 1.0))
+        << end;
+  }
+}
+
 TEST_F(EndMotionTest, AConditionThatHoldsAtTheStartIsRefused) {
   EndCase test = one_of_two_conditions();
   const std::string study =

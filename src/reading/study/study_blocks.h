@@ -20,7 +20,19 @@ namespace codesign {
 /// Reads `parameters:` into Study::parameters (the model's, then the study's own) and Study::tuned
 /// (in the order written). Start and bounds default to the model's; a parameter that the model does
 /// not have needs `initial`. @throws InputError
-void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study);
+/// @param files reads tables of rows to choose from.
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot,
+                     const FileLoader& files, Study* study);
+
+/// Whether an entry of `parameters:` is a list of rows with several numbers, or a table of them.
+bool is_catalogue(const YamlValue& value);
+/// Reads such an entry: tunes the parameters of its columns, which must be known, together.
+/// @throws InputError
+void read_catalogue(const std::string& name, const YamlValue& value, const FileLoader& files,
+                    Study* study);
+/// Reads `choice` or `integer` of the parameter `index`, whose start has been read, and tunes it.
+/// @throws InputError
+void read_choice(const std::string& name, const YamlValue& value, int index, Study* study);
 
 /// Sets a parameter's bounds to `lower` and `upper` of a map, where given.
 /// @throws InputError if lower is not below upper, or the parameter's value is not within them.
@@ -199,6 +211,14 @@ std::vector<UncertainQuantity> read_identified(const YamlValue& from, const Stud
 EnsembleDescription read_ensemble(const YamlValue& study_value, const RobotDescription& robot,
                                   const RunReader& read_run, const FileLoader& files,
                                   const Study& study);
+
+/// Reads the list `tradeoff:`, each item `{name: NAME, objective: {...}}`: the study is read with
+/// each objective. All other blocks must have been read. @throws InputError for less than two or
+/// more than three, a name that is none or is taken, no term, and in a study with `objective`.
+std::vector<TradeoffObjective> read_tradeoff(const YamlValue& study_value,
+                                             const RobotDescription& robot,
+                                             const RunReader& read_run, const FileLoader& files,
+                                             const Study& study);
 
 /// Reads a list of recordings, `identify.data` or `identify.holdout`; at least one. @throws
 /// InputError

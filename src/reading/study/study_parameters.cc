@@ -37,10 +37,6 @@ std::unordered_map<std::string, int> indices_of(const std::vector<Parameter>& pa
   return indices;
 }
 
-}  // namespace
-
-namespace {
-
 /// A parameter of the study with what else is said of it there.
 struct TunedParameter : Parameter {
   bool tune = true;
@@ -62,9 +58,10 @@ EntryKeys<TunedParameter, NoContext> parameter_keys() {
   using Keys = EntryKeys<TunedParameter, NoContext>;
   return with(value_keys<TunedParameter>(),
               Keys{optional_key<TunedParameter, NoContext>(
-                  "tune", [](const YamlValue& value, const NoContext&, TunedParameter* entry) {
-                    entry->tune = value.boolean();
-                  })});
+                       "tune", [](const YamlValue& value, const NoContext&,
+                                  TunedParameter* entry) { entry->tune = value.boolean(); }),
+                   optional_key<TunedParameter, NoContext>("choice"),
+                   optional_key<TunedParameter, NoContext>("integer")});
 }
 
 void check_bounds(const YamlValue& value, const Parameter& parameter) {
@@ -89,22 +86,29 @@ void read_bounds(const YamlValue& value, Parameter* parameter) {
   check_bounds(value, *parameter);
 }
 
-void read_parameters(const YamlValue& study_value, const RobotDescription& robot, Study* study) {
+void read_parameters(const YamlValue& study_value, const RobotDescription& robot,
+                     const FileLoader& files, Study* study) {
   study->parameters = robot.parameters;
   const auto parameters = study_value.find("parameters");
   if (!parameters) return;
   std::unordered_map<std::string, int> indices = indices_of(study->parameters);
   const EntryKeys<TunedParameter, NoContext> keys = parameter_keys();
   for (const auto& [name, value] : parameters->entries()) {
+    if (is_catalogue(value)) {
+      read_catalogue(name, value, files, study);
+      continue;
+    }
     require_keys(value, keys);
     const auto [found, is_new] = indices.emplace(name, static_cast<int>(study->parameters.size()));
     const int index = found->second;
     if (is_new) study->parameters.push_back(new_parameter(name, value, robot.parameters));
     TunedParameter entry{study->parameters[to_index(index)]};
     read_entry(value, keys, NoContext(), &entry);
-    check_bounds(value, entry);
-    if (entry.tune) study->tuned.push_back(index);
+    const bool is_chosen = entry.tune && (value.find("choice") || value.find("integer"));
+    if (!is_chosen) check_bounds(value, entry);
+    if (entry.tune && !is_chosen) study->tuned.push_back(index);
     study->parameters[to_index(index)] = std::move(entry);
+    if (is_chosen) read_choice(name, value, index, study);
   }
 }
 

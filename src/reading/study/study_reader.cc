@@ -60,12 +60,12 @@ void refuse_integrator_of_postures(const YamlValue& root, const Study& study) {
 /// Reads all blocks of one run and its optimization, that is all except the blocks of
 /// read_ensemble(). Does not check the keys of the root.
 Study read_single_run(const YamlValue& root, const std::string& file, const RobotDescription& robot,
-                      const TrajectoryLoader& loader) {
+                      const TrajectoryLoader& loader, const FileLoader& files) {
   Study study;
   study.file = file;
   study.postures = count_postures(root);
   if (const auto gravity = root.find("gravity")) study.gravity = read_gravity(*gravity);
-  read_parameters(root, robot, &study);
+  read_parameters(root, robot, files, &study);
   declare_coefficients(root, &study);
   declare_gains(root, &study);
   constexpr std::size_t kMostTuned = 10000;
@@ -128,21 +128,32 @@ Study read_study(const SourceText& yaml, const RobotDescription& robot,
                  const TrajectoryLoader& loader, const FileLoader& files) {
   const YamlValue root = YamlValue::parse(yaml);
   root.require_keys(
-      {},
-      {"duration",   "until",     "gravity",   "initial_state", "controllers", "loads",  "motion",
-       "parameters", "objective", "path",      "final",         "constraints", "limits", "solver",
-       "optimizer",  "runs",      "uncertain", "robust",        "multistart",  "engine", "identify",
-       "excite",     "hardware",  "positions", "hold",          "efforts",     "base"});
+      {}, {"duration",   "until",      "gravity",   "initial_state", "controllers", "loads",
+           "motion",     "parameters", "objective", "path",          "final",       "constraints",
+           "limits",     "solver",     "optimizer", "runs",          "uncertain",   "robust",
+           "multistart", "engine",     "identify",  "excite",        "hardware",    "positions",
+           "hold",       "efforts",    "base",      "tradeoff"});
   require_purpose_of_excite(root);
   refuse_motion_of_excitation(root);
   const TrajectoryLoader trajectories = trajectories_of(loader, files);
   const auto read_run = [&](const YamlValue& study_value) {
-    return read_single_run(study_value, yaml.name, robot, trajectories);
+    return read_single_run(study_value, yaml.name, robot, trajectories, files);
   };
   Study study = read_run(root);
   study.base_is_given = root.find("base").has_value();
   says_floating(root);  // refuses another word
   study.ensemble = read_ensemble(root, robot, read_run, files, study);
+  if (!study.choices.empty())
+    for (const char* key : {"multistart", "identify", "tradeoff"})
+      if (const auto block = root.find(key))
+        block->fail("parameters that are chosen from a list have a search of their own",
+                    std::string("either ") + key + " or choice and integer");
+  if (root.find("tradeoff")) {
+    study.tradeoff = read_tradeoff(root, robot, read_run, files, study);
+    for (const TradeoffObjective& one : study.tradeoff)
+      study.used_parameters.insert(one.study->used_parameters.begin(),
+                                   one.study->used_parameters.end());
+  }
   if (const auto identify = root.find("identify"))
     study.identification = read_identification(*identify, robot, study);
   if (const auto efforts = root.find("efforts")) study.grid = read_posture_grid(*efforts, robot);

@@ -80,6 +80,20 @@ TEST_F(OptimizationJob, TheBagHoldsBothRuns) {
   }
 }
 
+TEST_F(OptimizationJob, AMassIsChosenFromAList) {
+  const Problem problem =
+      block("", "{algorithm: slsqp, max_evaluations: 60}", ", mass: {choice: [1.0, 2.5, 6.0]}");
+  const auto result =
+      run_optimization(problem, "", OptimizeGoal(), {directory_.path().string(), 20.0}, {}, cancel_)
+          .result;
+  ASSERT_TRUE(result.success) << result.message;
+  EXPECT_EQ(result.termination, "all_combinations_searched");
+  ASSERT_EQ(result.parameters.back(), "mass");
+  const std::set<double> list{1.0, 2.5, 6.0};
+  EXPECT_EQ(list.count(result.tuned.back()), 1u) << result.tuned.back();
+  EXPECT_EQ(result.initial.back(), 2.5) << "the nearest to the model's";
+}
+
 TEST_F(OptimizationJob, OfAStudyWithScenariosTheBagHoldsTheWorstRun) {
   const Problem problem = block(
       "runs: {light: {set: {mass: 1.0}}, heavy: {set: {mass: 8.0}}}\nrobust: {measure: worst}\n");

@@ -76,6 +76,17 @@ TEST(OptimizeRequest, ChoosesOptions) {
   EXPECT_EQ(options.relative_tolerance, 1e-3);
 }
 
+TEST(OptimizeRequest, ATradeOffIsNotTheNodes) {
+  std::string study = kPendulumStudy;
+  const std::size_t first = study.find("objective:");
+  study = study.substr(0, first) +
+          "tradeoff:\n  - {name: slow, objective: {integral: [{signal: hinge/velocity}]}}\n"
+          "  - {name: near, objective: {integral: [{signal: hinge/position}]}}\n";
+  const Problem problem = load_problem({"pendulum.urdf", kPendulumUrdf}, {}, {"study", study});
+  EXPECT_NE(fault_of([&] { apply_request(problem, OptimizeGoal()); }).find("codesign tradeoff"),
+            std::string::npos);
+}
+
 TEST(OptimizeRequest, FaultsNameTheField) {
   OptimizeGoal request;
   request.parameters = {"lenght"};
