@@ -128,6 +128,25 @@ bool is_fit_hindered(const IdentificationResult& result) {
   return 2 * result.failed_evaluations > result.evaluations;
 }
 
+IntervalOptions white(const IdentificationDescription& options) {
+  IntervalOptions white = options.intervals;
+  white.noise = NoiseModel::kWhite;
+  return white;
+}
+
+/// How much larger variances are than with white noise, on average over what the data determine.
+double inflation_of(const ParameterCovariance& known, const ParameterCovariance& plain) {
+  double sum = 0.0;
+  int determined = 0;
+  for (Eigen::Index i = 0; i < known.covariance.rows(); ++i) {
+    if (!known.identifiability.is_determined[to_index(i)] || !(plain.covariance(i, i) > 0.0))
+      continue;
+    sum += known.covariance(i, i) / plain.covariance(i, i);
+    ++determined;
+  }
+  return determined > 0 ? sum / determined : 1.0;
+}
+
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
                    IdentificationResult* result) {
   for (Eigen::Index k = 0; k < variables.size(); ++k) {
@@ -210,6 +229,8 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
       result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
   }
   result->rank = known.identifiability.rank;
+  result->inflation = inflation_of(
+      known, covariance_of(fit, options.loss, source, white(options), delays, columns));
   result->lag = known.lag;
   judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }
@@ -230,9 +251,8 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result) {
   const std::vector<int> columns = free_columns(*result);
-  IntervalOptions white = options.intervals;
-  white.noise = NoiseModel::kWhite;
-  const ParameterCovariance plain = covariance_of(fit, options.loss, *source, white, {}, columns);
+  const ParameterCovariance plain =
+      covariance_of(fit, options.loss, *source, white(options), {}, columns);
   const double degrees =
       covariance_of(fit, options.loss, *source, options.intervals, {}, columns).degrees;
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -272,6 +292,7 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
                              const std::vector<EffortDoubt>& doubts, Status* failure) {
   Warnings warnings;
   const bool is_motion = options.residual == ResidualKind::kMotion;
+  const std::string who = result.termination == kEvaluated ? "the model" : "the fit";
   for (const OutputFit& fit : result.data) {
     if (!(fit.explained < kExplainedHalf)) continue;
     const std::string joint = joint_of(options, fit);
@@ -281,11 +302,11 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
                is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
     std::string sentence =
-        "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
+        who + " explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
         fit.joint + ": sign, unit, order?" +
         (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
         (mistake.empty() ? "" : " " + mistake);
-    if (is_filter) sentence = "the fit does not explain " + fit.joint + ": " + mistake;
+    if (is_filter) sentence = who + " does not explain " + fit.joint + ": " + mistake;
     if (is_hindered)
       sentence =
           "most points of the fit could not be evaluated, and the best of the others explains less "

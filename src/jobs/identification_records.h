@@ -39,7 +39,8 @@ struct IdentificationFile {
 };
 
 /// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
-/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may
+/// identified.urdf (both only of a fit), residuals.csv, and the study as job_study.yaml;
+/// doc/study.md. The texts may
 /// throw. @param json the text of identification_json() with all additions of the front end. All
 /// three arguments must outlive the texts.
 std::vector<IdentificationFile> identification_files(const Problem& problem,
