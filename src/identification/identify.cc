@@ -72,23 +72,6 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
   return status;
 }
 
-/// The file of the result has the whole sentences.
-Status not_identifiable(const std::vector<std::string>& sentences) {
-  constexpr std::size_t kTold = 3, kLongest = 120;
-  Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
-  std::size_t told = 0;
-  for (const std::string& sentence : sentences) {
-    if (told == kTold) break;
-    if (sentence.size() > kLongest) continue;
-    status.cause += (told == 0 ? ": " : "; ") + sentence;
-    ++told;
-  }
-  if (told < sentences.size())
-    status.cause += (told == 0 ? ": " : "; and ") + std::to_string(sentences.size() - told) +
-                    (told == 0 ? " combinations (\"undetermined\")" : " more (\"undetermined\")");
-  return status;
-}
-
 /// Warnings about efforts or motions that the fit does not explain, and about recordings that
 /// contradict the model as it stands although the fit explains them.
 Warnings warnings_of_unexplained(const Problem& problem,
@@ -140,7 +123,8 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
   result->warnings = std::move(found);
   if (result->status.ok()) result->status = unexplained;
   if (result->status.ok() && !result->undetermined.empty() && !is_rest_decided)
-    result->status = not_identifiable(result->undetermined);
+    result->status =
+        not_identifiable("the data do not determine all numbers", result->undetermined);
 }
 
 }  // namespace

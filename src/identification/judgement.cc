@@ -242,9 +242,31 @@ bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossO
   const Identifiability found =
       find_identifiable(weighted_columns(fit, loss, {}, columns).jacobian);
   if (found.dependent.empty()) return true;
-  const Eigen::MatrixXd slopes = prior.jacobian(fit.x)(Eigen::all, columns);
+  return decides(prior, fit.x, columns, found);
+}
+
+bool decides(const FitPrior& prior, const Eigen::VectorXd& x, const std::vector<int>& columns,
+             const Identifiability& found) {
+  if (prior.empty()) return found.dependent.empty();
+  const Eigen::MatrixXd slopes = prior.jacobian(x)(Eigen::all, columns);
   return find_identifiable(upper_factor(product(slopes, found.null_directions))).rank ==
          static_cast<int>(found.dependent.size());
+}
+
+Status not_identifiable(const std::string& what, const std::vector<std::string>& sentences) {
+  constexpr std::size_t kTold = 3, kLongest = 120;
+  Status status{StatusCode::kNotIdentifiable, 0.0, what};
+  std::size_t told = 0;
+  for (const std::string& sentence : sentences) {
+    if (told == kTold) break;
+    if (sentence.size() > kLongest) continue;
+    status.cause += (told == 0 ? ": " : "; ") + sentence;
+    ++told;
+  }
+  if (told < sentences.size())
+    status.cause += (told == 0 ? ": " : "; and ") + std::to_string(sentences.size() - told) +
+                    (told == 0 ? " combinations (\"undetermined\")" : " more (\"undetermined\")");
+  return status;
 }
 
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,

@@ -7,6 +7,7 @@
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/identification_result.h"
 #include "identification/fit/residual_fit.h"
+#include "statistics/identifiability.h"
 
 namespace codesign {
 
@@ -28,6 +29,13 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 /// changes the prior. @param result with numbers judged by judge_numbers()
 bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossOptions& loss,
                       const IdentificationResult& result);
+
+/// The same of directions that were found. @param columns of x to which they belong
+bool decides(const FitPrior& prior, const Eigen::VectorXd& x, const std::vector<int>& columns,
+             const Identifiability& found);
+
+/// kNotIdentifiable: `what`, and the first of the sentences; all stand in the result.
+Status not_identifiable(const std::string& what, const std::vector<std::string>& sentences);
 
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
 /// is fixed in turn, and all others are fitted again.

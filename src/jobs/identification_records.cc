@@ -198,12 +198,22 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   return object;
 }
 
+void append_first(const std::string& what, const std::vector<std::string>& whole,
+                  const std::string& rest, std::vector<std::string>* sentences) {
+  constexpr std::size_t kLongest = 160;
+  for (std::size_t k = 0; k < std::min(kToldSentences, whole.size()); ++k)
+    sentences->push_back(what + (whole[k].size() <= kLongest
+                                     ? whole[k]
+                                     : whole[k].substr(0, kLongest - 4) + " ..."));
+  if (whole.size() > kToldSentences)
+    sentences->push_back("and " + std::to_string(whole.size() - kToldSentences) + " more; " + rest);
+}
+
 namespace {
 
 /// With a prior that decides the rest, one line; else the first sentences. Long ones stand in the
 /// JSON.
 void append_undetermined(const IdentificationResult& result, std::vector<std::string>* sentences) {
-  constexpr std::size_t kLongest = 160;
   if (result.undetermined.empty()) return;
   if (result.status.ok()) {
     const auto on_bound = std::count_if(
@@ -216,15 +226,7 @@ void append_undetermined(const IdentificationResult& result, std::vector<std::st
                          std::to_string(free - result.rank));
     return;
   }
-  for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k) {
-    const std::string& whole = result.undetermined[k];
-    sentences->push_back("not identifiable: " + (whole.size() <= kLongest
-                                                     ? whole
-                                                     : whole.substr(0, kLongest - 4) + " ..."));
-  }
-  if (result.undetermined.size() > kToldSentences)
-    sentences->push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) +
-                         " more; what is known stands below");
+  append_first("not identifiable: ", result.undetermined, "what is known stands below", sentences);
 }
 
 }  // namespace
