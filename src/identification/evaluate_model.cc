@@ -7,6 +7,7 @@
 #include "description/study.h"
 #include "identification/effort/effort_doubts.h"
 #include "identification/fit/given_motion.h"
+#include "identification/fit_doubts.h"
 #include "identification/identify.h"
 #include "identification/judgement.h"
 #include "identification/residuals_of_recordings.h"

@@ -8,6 +8,7 @@
 #include "description/study.h"
 #include "identification/fit/given_motion.h"
 #include "identification/fit/residual_source.h"
+#include "identification/fit_doubts.h"
 #include "identification/judgement.h"
 #include "identification/residuals_of_recordings.h"
 #include "math/cpu_timer.h"

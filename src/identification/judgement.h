@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "identification/effort/effort_doubts.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/identification_result.h"
 #include "identification/fit/residual_fit.h"
@@ -44,18 +43,5 @@ Status not_identifiable(const std::string& what, const std::vector<std::string>&
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result);
-
-/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit
-/// explains less than half; `recording_effort` for the other doubts about a unit, and for those
-/// whose mended mistake explains clearly more than the fit. @param doubts about the recordings as
-/// the model stands. @param failure set if the fit explains less than a tenth of an output, or if a
-/// mistake in the recording explains more
-Warnings unexplained_outputs(const IdentificationDescription& options,
-                             const IdentificationResult& result,
-                             const std::vector<EffortDoubt>& doubts, Status* failure);
-
-/// Warnings about the result: `holdout_failed` first, `max_evaluations_reached`, `fit_hindered`,
-/// `identified_on_bound`, `correlated_residuals`, `delay_in_noise`.
-Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign
