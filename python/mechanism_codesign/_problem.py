@@ -264,7 +264,7 @@ class Problem:
         return Tradeoff(self._core.tradeoff(0 if points is None else points, None if progress is None else tell, _event(cancel)))
 
     def identify(self, time: Optional[npt.ArrayLike] = None, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
-                 velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,
+                 velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None, evaluate: bool = False,
                  progress: Optional[Callable[[FitTrial], object]] = None, cancel: Optional[Event] = None) -> Fit:
         """Fits the tuned parameters to a recorded motion: `codesign identify` with arrays in place of files.
 
@@ -273,6 +273,8 @@ class Problem:
         per s, N m or N]; at least positions or velocities. The
         block `identify:` of the study, which may be missing, says how; the recordings that it names are not read. Without arrays they
         are.
+
+        evaluate: fit nothing; the result has residuals, shares and doubts of the model as it stands, `codesign identify --evaluate`.
 
         progress, cancel: as in optimize().
         """
@@ -287,7 +289,7 @@ class Problem:
             assert progress is not None
             progress(FitTrial(line, **fields))
 
-        return Fit(self._core.identify(time, table, None if progress is None else tell, _event(cancel)))
+        return Fit(self._core.identify(time, table, not evaluate, None if progress is None else tell, _event(cancel)))
 
     def __repr__(self) -> str:
         return f"<Problem {self._core.name}: {_notebook.extent(*self._core.extent)}, {len(self.names)} tuned parameters>"

@@ -312,6 +312,18 @@ class Fit(_Job):
         self.recorded: Dict[str, Array] = dict(zip(outputs, core.recorded.T))
         self.computed: Dict[str, Array] = dict(zip(outputs, core.computed.T))
 
+    def against(self, other: "Fit | str | os.PathLike[str]") -> Dict[str, Any]:
+        """Compares with another fit or evaluation of the same recordings, or with an identification.json: `codesign identify --against`.
+
+        `criterion`: Akaike's, here minus there, negative where this one is expected to predict better; for nested models the likelihood
+        ratio `statistic`, its `degrees` and the `probability` of one as large by chance; `data` and `holdout`: residuals and shares there
+        and here. `refusal` says why there is no criterion.
+        """
+        if isinstance(other, Fit):
+            return dict(self._core.against("the other fit", other._core.json))
+        with open(other, encoding="utf-8") as file:
+            return dict(self._core.against(os.fspath(other), file.read()))
+
     def __repr__(self) -> str:
         return f"<Fit: {self.status.code}, {', '.join(f'{name} = {n.value:.6g}' for name, n in self.numbers.items())}>"
 

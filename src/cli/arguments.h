@@ -45,9 +45,11 @@ struct Arguments {
   bool verify = false;          ///< gradient
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
-  std::string output;   ///< optimize, identify, excite; empty: no files
-  bool resume = false;  ///< optimize; continue with the journal in `output`
-  std::string from;     ///< new; the machine of the gallery
+  bool evaluate = false;  ///< identify; judge the model as it stands
+  std::string against;    ///< identify; an identification.json to compare with, empty: none
+  std::string output;     ///< optimize, identify, excite; empty: no files
+  bool resume = false;    ///< optimize; continue with the journal in `output`
+  std::string from;       ///< new; the machine of the gallery
 };
 
 /// @param words the command line without the program's name.

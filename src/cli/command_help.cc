@@ -80,6 +80,8 @@ const CommandHelp kCommands[] = {
      R"(  identify MODEL STUDY     fit parameters to recordings, and tell how well they are known
     --output DIR           write identification.json, identified_overlay.urdf, identified.urdf,
                            residuals.csv and job_study.yaml, the study
+    --evaluate             fit nothing: residuals, shares and doubts of the model as it stands
+    --against FILE         compare with another identification.json of the same recordings
 )"},
     {"excite",
      R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most

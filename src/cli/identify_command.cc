@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "cli/commands.h"
@@ -16,6 +17,7 @@
 #include "jobs/identification_records.h"
 #include "jobs/job_files.h"
 #include "jobs/json.h"
+#include "jobs/judged_fits.h"
 #include "jobs/trial_lines.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
@@ -76,6 +78,7 @@ void print_combinations(const IdentificationResult& result, double level, std::o
 
 void print_result(const Problem& problem, const IdentificationResult& result, std::ostream& out) {
   for (const std::string& sentence : identification_sentences(result)) out << sentence << '\n';
+  if (result.termination == kEvaluated) return;
   const double level = study_of(problem).identification->intervals.level;
   print_numbers(result, level, out);
   print_combinations(result, level, out);
@@ -86,7 +89,10 @@ void print_result(const Problem& problem, const IdentificationResult& result, st
 
 Problem load_identifiable(const Arguments& arguments) {
   Problem problem = load(arguments);
-  require_identification(problem);
+  if (arguments.evaluate)
+    require_recordings_named(problem);
+  else
+    require_identification(problem);
   return problem;
 }
 
@@ -149,15 +155,26 @@ std::vector<Failure> write_folder(const Arguments& arguments, const Problem& pro
   return failures;
 }
 
-}  // namespace
+/// The file of --against, read before the fit, so that a wrong one costs no time. @throws
+/// InputError
+std::optional<SourceText> read_other(const Arguments& arguments) {
+  if (arguments.against.empty()) return std::nullopt;
+  SourceText other = read_source(arguments.against);
+  read_judged_model(other);
+  return other;
+}
 
-int identify(const Arguments& arguments, const Console& console) {
-  const Problem problem = load_identifiable(arguments);
-  if (!arguments.output.empty()) make_room(arguments.output, problem);
-  Warnings warnings;
-  const StudyRecordings recordings = read_recordings(problem, console, &warnings);
-  // Until here there are no results to lose, and an interrupt ends the program at once.
-  if (console.loaded) console.loaded();
+void compare(const Arguments& arguments, const SourceText& other, Json* object, std::ostream& out) {
+  Json comparison = comparison_json(other, {"this result", to_text(*object)});
+  if (!arguments.json)
+    for (const std::string& sentence : comparison_sentences(comparison))
+      out << "against " << other.name << ": " << sentence << '\n';
+  (*object)["against"] = std::move(comparison);
+}
+
+IdentificationResult judged_or_fitted(const Arguments& arguments, const Problem& problem,
+                                      const StudyRecordings& recordings, const Console& console) {
+  if (arguments.evaluate) return evaluate_model(problem, recordings, &console.cancel);
   LinePace pace;
   FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {
@@ -165,11 +182,25 @@ int identify(const Arguments& arguments, const Console& console) {
     if (!line.empty() && pace.admits_now()) progress_of(arguments, console) << line << std::endl;
     return !console.cancel;
   };
-  IdentificationResult result = codesign::identify(problem, recordings, observer, &console.cancel);
+  return codesign::identify(problem, recordings, observer, &console.cancel);
+}
+
+}  // namespace
+
+int identify(const Arguments& arguments, const Console& console) {
+  const Problem problem = load_identifiable(arguments);
+  const std::optional<SourceText> other = read_other(arguments);
+  if (!arguments.output.empty()) make_room(arguments.output, problem);
+  Warnings warnings;
+  const StudyRecordings recordings = read_recordings(problem, console, &warnings);
+  // Until here there are no results to lose, and an interrupt ends the program at once.
+  if (console.loaded) console.loaded();
+  IdentificationResult result = judged_or_fitted(arguments, problem, recordings, console);
   append(warnings, &result.warnings);
-  const bool known = !result.numbers.empty();
+  const bool known = !result.data.empty() || !result.holdout.empty();
   if (!arguments.json && known) print_result(problem, result, console.out);
   Json object = identification_json(problem, result);
+  if (other && known) compare(arguments, *other, &object, console.out);
   add_warnings(arguments, problem, result.warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;

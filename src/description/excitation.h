@@ -56,7 +56,7 @@ struct ExcitationDescription {
   int starts = 4;              ///< searches, the first from the plain trajectory
   std::uint32_t seed = 1;
   TrajectorySearchMethod search = TrajectorySearchMethod::kSlsqp;
-  int max_evaluations = 200;  ///< of one search
+  int max_evaluations = 1000;  ///< of one search
   SourceLocation where;
 };
 

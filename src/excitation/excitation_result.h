@@ -37,8 +37,8 @@ struct ExcitationStart {
 
 /// The result of excite().
 struct ExcitationResult {
-  /// ok, kCancelled, kNotIdentifiable (the other members are set, too), kInfeasible, or a failure
-  /// at the start
+  /// ok, also where a prior decides what no trajectory determines; kCancelled, kNotIdentifiable
+  /// (the other members are set, too), kInfeasible, or a failure at the start
   Status status;
   std::string termination;                ///< of the best search
   std::vector<PredictedNumber> numbers;   ///< empty: no trajectory was found

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "assembly/assembly.h"
 #include "description/study.h"
 #include "engine/thread_engine.h"
+#include "identification/judgement.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "math/dense.h"
@@ -104,6 +106,7 @@ class Excitation {
   LimitScan::Extremes plain_extremes_, extremes_;
   std::vector<int> told_;
   std::vector<bool> is_determined_;
+  bool is_rest_decided_ = false;  // by the prior
   bool interrupted_ = false;
   ExcitationResult result_;
 };
@@ -168,6 +171,9 @@ Status Excitation::find_told() {
       told_.push_back(column);
   is_determined_ = found.is_determined;
   result_.undetermined = describe_undetermined(found, variables_.names());
+  std::vector<int> all(to_index(variables_.size()));
+  std::iota(all.begin(), all.end(), 0);
+  is_rest_decided_ = decides(variables_.prior(), variables_.start(), all, found);
   result_.counted = static_cast<int>(told_.size());
   return {};
 }
@@ -284,10 +290,8 @@ void Excitation::conclude() {
   if (is_set(cancel_) || interrupted_) {
     result_.status = {StatusCode::kCancelled, 0.0, "cancelled"};
     result_.termination = "cancelled";
-  } else if (!result_.undetermined.empty()) {
-    result_.status = {StatusCode::kNotIdentifiable, 0.0, "no trajectory determines all numbers"};
-    for (std::size_t k = 0; k < result_.undetermined.size(); ++k)
-      result_.status.cause += (k == 0 ? ": " : "; ") + result_.undetermined[k];
+  } else if (!result_.undetermined.empty() && !is_rest_decided_) {
+    result_.status = not_identifiable("no trajectory determines all numbers", result_.undetermined);
   } else if (!std::isfinite(result_.criterion)) {
     result_.status = {StatusCode::kNotIdentifiable, 0.0,
                       "no single trajectory was found that determines all numbers"};

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "description/study.h"
-#include "engine/thread_engine.h"
 #include "identification/fit/given_motion.h"
 #include "identification/fit/residual_source.h"
+#include "identification/fit_doubts.h"
 #include "identification/judgement.h"
-#include "identification/motion/motion_residuals.h"
+#include "identification/residuals_of_recordings.h"
 #include "math/cpu_timer.h"
 #include "problem/load_problem.h"
 #include "problem/margins.h"
@@ -19,57 +19,6 @@
 
 namespace codesign {
 namespace {
-
-/// Null once `cancel` is set.
-std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
-                                                    const FitVariables& variables,
-                                                    const std::vector<MeasuredJoint>& joints,
-                                                    const std::vector<JointRecording>& recordings,
-                                                    const std::atomic<bool>* cancel,
-                                                    Warnings* warnings) {
-  const IdentificationDescription& options = *study_of(problem).identification;
-  const int threads = worker_threads(study_of(problem).ensemble.engine);
-  if (options.residual == ResidualKind::kMotion)
-    return std::make_unique<MotionResiduals>(*system_of(problem), variables, options, joints,
-                                             recordings, threads, warnings);
-  require_efforts(joints, recordings);
-  const FilterOptions& filter = options.filter;
-  std::vector<MeasuredMotion> motions;
-  motions.reserve(recordings.size());
-  for (const JointRecording& recording : recordings)
-    if (!is_set(cancel)) motions.push_back(measured_motion(recording, filter, warnings));
-  if (is_set(cancel)) return nullptr;
-  return std::make_unique<EffortResiduals>(*system_of(problem), variables, joints,
-                                           std::move(motions), filter, threads);
-}
-
-/// Recordings with the same values of parameters have one model. Null once `cancel` is set.
-std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
-                                                   const FitVariables& variables,
-                                                   const std::vector<MeasuredJoint>& joints,
-                                                   const std::vector<JointRecording>& recordings,
-                                                   const std::atomic<bool>* cancel,
-                                                   Warnings* warnings) {
-  const auto has_settings = [](const JointRecording& recording) {
-    return !recording.settings.empty();
-  };
-  if (std::none_of(recordings.begin(), recordings.end(), has_settings))
-    return residuals_alike(problem, variables, joints, recordings, cancel, warnings);
-  std::vector<StackedResiduals::Part> parts;
-  for (auto begin = recordings.begin(); begin != recordings.end();) {
-    const auto end = std::find_if(begin, recordings.end(), [&](const JointRecording& other) {
-      return !has_same_settings(other, *begin);
-    });
-    auto variables_of =
-        std::make_unique<FitVariables>(study_of(problem), &robot_of(problem), begin->settings);
-    auto residuals =
-        residuals_alike(problem, *variables_of, joints, {begin, end}, cancel, warnings);
-    if (!residuals) return nullptr;
-    parts.push_back({std::move(variables_of), std::move(residuals)});
-    begin = end;
-  }
-  return std::make_unique<StackedResiduals>(std::move(parts));
-}
 
 /// The residuals to fit and, if there is a holdout, its residuals; null once `cancel` is set.
 struct Sources {
@@ -109,10 +58,6 @@ FitProblem fit_problem(const Problem& problem, const FitVariables& variables) {
   return fit;
 }
 
-FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& residuals) {
-  return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
-}
-
 /// Computes the residuals of recordings that were not fitted, at x.
 Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, const LossOptions& loss,
                      RecordingResiduals* residuals, IdentificationResult* result) {
@@ -125,23 +70,6 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
   result->holdout = judge_outputs(*residuals, at_start, at_end, fit.spreads, loss);
   result->holdout_series = series_of(*residuals, at_end);
   result->holdout_samples = residuals->rows();
-  return status;
-}
-
-/// The file of the result has the whole sentences.
-Status not_identifiable(const std::vector<std::string>& sentences) {
-  constexpr std::size_t kTold = 3, kLongest = 120;
-  Status status{StatusCode::kNotIdentifiable, 0.0, "the data do not determine all numbers"};
-  std::size_t told = 0;
-  for (const std::string& sentence : sentences) {
-    if (told == kTold) break;
-    if (sentence.size() > kLongest) continue;
-    status.cause += (told == 0 ? ": " : "; ") + sentence;
-    ++told;
-  }
-  if (told < sentences.size())
-    status.cause += (told == 0 ? ": " : "; and ") + std::to_string(sentences.size() - told) +
-                    (told == 0 ? " combinations (\"undetermined\")" : " more (\"undetermined\")");
   return status;
 }
 
@@ -196,18 +124,29 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
   result->warnings = std::move(found);
   if (result->status.ok()) result->status = unexplained;
   if (result->status.ok() && !result->undetermined.empty() && !is_rest_decided)
-    result->status = not_identifiable(result->undetermined);
+    result->status =
+        not_identifiable("the data do not determine all numbers", result->undetermined);
 }
 
 }  // namespace
 
-void require_identification(const Problem& problem) {
+void require_recordings_named(const Problem& problem) {
   if (!study_of(problem).identification)
     throw InputError({{study_of(problem).file, 1},
                       "identify",
                       "the study has no recordings to identify from",
                       "",
                       "a block identify"});
+}
+
+void require_identification(const Problem& problem) {
+  require_recordings_named(problem);
+  if (FitVariables(study_of(problem), &robot_of(problem)).size() == 0)
+    throw InputError({study_of(problem).identification->where, "identify",
+                      "there is nothing to identify", "",
+                      "at least one parameter under parameters, or a map under "
+                      "identify.joints.JOINT; codesign identify --evaluate judges the model as it "
+                      "stands"});
 }
 
 IdentificationResult identify(const Problem& problem, const StudyRecordings& given,

@@ -10,7 +10,11 @@
 
 namespace codesign {
 
-/// @throws InputError if the study of the problem has no block `identify`.
+/// @throws InputError if the study of the problem has no block `identify`, as evaluate_model()
+/// needs.
+void require_recordings_named(const Problem& problem);
+
+/// @throws InputError if it has none, or has nothing to identify.
 void require_identification(const Problem& problem);
 
 /// Fits the tuned parameters and the numbers of effort sensors to recordings, with their
@@ -23,5 +27,14 @@ void require_identification(const Problem& problem);
 /// @throws InputError for recordings that do not fit the mechanism
 IdentificationResult identify(const Problem& problem, const StudyRecordings& recordings,
                               const FitObserver& observer, const std::atomic<bool>* cancel);
+
+/// Judges the model as it stands: the residuals of data and holdout at the start of the study, with
+/// the doubts about them. Nothing is fitted but, with residuals in motion, the states with which
+/// segments begin. The result has outputs and series without numbers; its status is that of the
+/// computation, however little the model explains.
+/// @param recordings data, holdout or both. The other parameters and exceptions are those of
+/// identify().
+IdentificationResult evaluate_model(const Problem& problem, const StudyRecordings& recordings,
+                                    const std::atomic<bool>* cancel);
 
 }  // namespace codesign

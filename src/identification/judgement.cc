@@ -16,14 +16,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kNearBound = 1e-9;  // of the range, or of the magnitude: a number nearer to its
-                                     // bound than this is on the bound
-// A holdout is not explained if its residuals are larger than those of the fitted data times this.
-constexpr double kHoldoutFactor = 1.5;
-// Share of signal in the slope of a recorded effort below which a warning is given.
-constexpr double kSlopeSignal = 0.8;
-constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed
-constexpr double kWhiteBelow = 0.01;      // probability below which residuals do not count as white
+// Of the range, or of the magnitude: a number nearer to its bound than this is on the bound.
+constexpr double kNearBound = 1e-9;
 
 double rms_of(const Eigen::VectorXd& column) {
   return std::sqrt(column.squaredNorm() / static_cast<double>(column.size()));
@@ -101,31 +95,23 @@ void judge_combinations(const WeightedResiduals& weighted, const ResidualFit& fi
   }
 }
 
-/// A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
-std::string joint_of(const IdentificationDescription& options, const OutputFit& fit) {
-  return options.residual == ResidualKind::kMotion ? fit.joint.substr(0, fit.joint.rfind('/'))
-                                                   : fit.joint;
+IntervalOptions white(const IdentificationDescription& options) {
+  IntervalOptions white = options.intervals;
+  white.noise = NoiseModel::kWhite;
+  return white;
 }
 
-/// Doubts about joints that the fit explains. Numbers without bounds near them follow an effort in
-/// another unit, so that the fit is no answer to such a doubt.
-std::vector<EffortDoubt> doubts_despite_fit(const IdentificationDescription& options,
-                                            const IdentificationResult& result,
-                                            const std::vector<EffortDoubt>& doubts) {
-  std::vector<EffortDoubt> left;
-  for (const EffortDoubt& doubt : doubts) {
-    double explained = 1.0;
-    for (const OutputFit& fit : result.data)
-      if (joint_of(options, fit) == doubt.joint) explained = std::min(explained, fit.explained);
-    if (explained < kExplainedHalf) continue;  // told with what the fit does not explain
-    if (doubt.is_unit || doubt.mended >= explained + kClearly) left.push_back(doubt);
+/// How much larger variances are than with white noise, on average over what the data determine.
+double inflation_of(const ParameterCovariance& known, const ParameterCovariance& plain) {
+  double sum = 0.0;
+  int determined = 0;
+  for (Eigen::Index i = 0; i < known.covariance.rows(); ++i) {
+    if (!known.identifiability.is_determined[to_index(i)] || !(plain.covariance(i, i) > 0.0))
+      continue;
+    sum += known.covariance(i, i) / plain.covariance(i, i);
+    ++determined;
   }
-  return left;
-}
-
-/// Whether most points of a fit could not be evaluated.
-bool is_fit_hindered(const IdentificationResult& result) {
-  return 2 * result.failed_evaluations > result.evaluations;
+  return determined > 0 ? sum / determined : 1.0;
 }
 
 void begin_numbers(const FitVariables& variables, const ResidualFit& fit,
@@ -210,6 +196,8 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
       result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
   }
   result->rank = known.identifiability.rank;
+  result->inflation = inflation_of(
+      known, covariance_of(fit, options.loss, source, white(options), delays, columns));
   result->lag = known.lag;
   judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }
@@ -221,18 +209,39 @@ bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossO
   const Identifiability found =
       find_identifiable(weighted_columns(fit, loss, {}, columns).jacobian);
   if (found.dependent.empty()) return true;
-  const Eigen::MatrixXd slopes = prior.jacobian(fit.x)(Eigen::all, columns);
+  return decides(prior, fit.x, columns, found);
+}
+
+bool decides(const FitPrior& prior, const Eigen::VectorXd& x, const std::vector<int>& columns,
+             const Identifiability& found) {
+  if (prior.empty()) return found.dependent.empty();
+  const Eigen::MatrixXd slopes = prior.jacobian(x)(Eigen::all, columns);
   return find_identifiable(upper_factor(product(slopes, found.null_directions))).rank ==
          static_cast<int>(found.dependent.size());
+}
+
+Status not_identifiable(const std::string& what, const std::vector<std::string>& sentences) {
+  constexpr std::size_t kTold = 3, kLongest = 120;
+  Status status{StatusCode::kNotIdentifiable, 0.0, what};
+  std::size_t told = 0;
+  for (const std::string& sentence : sentences) {
+    if (told == kTold) break;
+    if (sentence.size() > kLongest) continue;
+    status.cause += (told == 0 ? ": " : "; ") + sentence;
+    ++told;
+  }
+  if (told < sentences.size())
+    status.cause += (told == 0 ? ": " : "; and ") + std::to_string(sentences.size() - told) +
+                    (told == 0 ? " combinations (\"undetermined\")" : " more (\"undetermined\")");
+  return status;
 }
 
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result) {
   const std::vector<int> columns = free_columns(*result);
-  IntervalOptions white = options.intervals;
-  white.noise = NoiseModel::kWhite;
-  const ParameterCovariance plain = covariance_of(fit, options.loss, *source, white, {}, columns);
+  const ParameterCovariance plain =
+      covariance_of(fit, options.loss, *source, white(options), {}, columns);
   const double degrees =
       covariance_of(fit, options.loss, *source, options.intervals, {}, columns).degrees;
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -265,102 +274,6 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
       return refit.cost;
     });
   }
-}
-
-Warnings unexplained_outputs(const IdentificationDescription& options,
-                             const IdentificationResult& result,
-                             const std::vector<EffortDoubt>& doubts, Status* failure) {
-  Warnings warnings;
-  const bool is_motion = options.residual == ResidualKind::kMotion;
-  for (const OutputFit& fit : result.data) {
-    if (!(fit.explained < kExplainedHalf)) continue;
-    const std::string joint = joint_of(options, fit);
-    const auto doubt = std::find_if(doubts.begin(), doubts.end(),
-                                    [&joint](const EffortDoubt& of) { return of.joint == joint; });
-    const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
-    const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
-               is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
-    std::string sentence =
-        "the fit explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
-        fit.joint + ": sign, unit, order?" +
-        (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
-        (mistake.empty() ? "" : " " + mistake);
-    if (is_filter) sentence = "the fit does not explain " + fit.joint + ": " + mistake;
-    if (is_hindered)
-      sentence =
-          "most points of the fit could not be evaluated, and the best of the others explains less "
-          "than half of " +
-          fit.joint;
-    const std::string allowed =
-        is_filter ? "at least half; a cutoff above the frequencies of the motion"
-        : is_hindered
-            ? "at least half; bounds or twins that leave such points out, or another start"
-        : is_motion
-            ? "at least half; positions in rad or m along the axis of the joint, efforts on the "
-              "child in N m or N along the same axis, "
-              "and the controllers and loads that drove the recording"
-            : "at least half; a recording in N m or N on the child, along the axis of its joint";
-    warnings.push_back(warn(is_motion ? "motion_not_explained" : "effort_not_explained",
-                            {options.where, "identify.data", sentence, "", allowed}));
-    if (failure->ok() && (fit.explained < kExplainsNothing || !mistake.empty()))
-      *failure = {StatusCode::kNotIdentifiable, 0.0, sentence};
-  }
-  append(warnings_of(options, doubts_despite_fit(options, result, doubts)), &warnings);
-  return warnings;
-}
-
-Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result) {
-  Warnings warnings;
-  for (std::size_t k = 0; k < result.holdout.size(); ++k) {
-    const double here = result.holdout[k].rms, there = result.data[k].rms;
-    if (!(here > kHoldoutFactor * there)) continue;
-    warnings.push_back(warn(
-        "holdout_failed",
-        {options.where, "identify.holdout",
-         "the fitted model does not explain the holdout: root mean square of the residuals of " +
-             result.holdout[k].joint + ", " + readable(there) + " on the fitted data",
-         readable(here), "at most " + readable(kHoldoutFactor * there)}));
-  }
-  if (result.termination == "max_evaluations_reached")
-    warnings.push_back(warn(
-        "max_evaluations_reached",
-        {options.where, "optimizer.max_evaluations",
-         "the fit ended before it reached an optimum; its numbers are those of the best point",
-         std::to_string(result.evaluations), "more evaluations, or a larger relative_tolerance"}));
-  if (is_fit_hindered(result))
-    warnings.push_back(warn(
-        "fit_hindered",
-        {options.where, "identify",
-         std::to_string(result.failed_evaluations) + " of " + std::to_string(result.evaluations) +
-             " points could not be evaluated, the last one for: " + result.last_failure.cause,
-         "", "bounds or twins that leave such points out, or another start"}));
-  for (const IdentifiedNumber& number : result.numbers)
-    if (number.is_on_bound)
-      warnings.push_back(warn("identified_on_bound",
-                              {options.where, number.name,
-                               "the fit ends on a bound, so that this number has no interval",
-                               readable(number.value), "wider bounds, or other data"}));
-  for (const IdentifiedNumber& number : result.numbers)
-    if (number.slope_signal < kSlopeSignal)
-      warnings.push_back(
-          warn("delay_in_noise",
-               {options.where, number.name,
-                "noise makes up for " + readable(100.0 * (1.0 - number.slope_signal), 2) +
-                    " % of the slope of the recorded effort, by which this delay is found; its "
-                    "interval counts that, but "
-                    "not that the delay is drawn to where samples are interpolated most smoothly",
-                readable(number.value),
-                "a lower identify.filter.residual_cutoff, where the noise begins"}));
-  for (const OutputFit& fit : result.data)
-    if (options.intervals.noise == NoiseModel::kWhite && fit.whiteness.probability < kWhiteBelow)
-      warnings.push_back(
-          warn("correlated_residuals",
-               {options.where, "identify.intervals.noise",
-                "the residuals of " + fit.joint + " are correlated (correlation of neighbours " +
-                    readable(fit.whiteness.first_correlation) +
-                    "), so that these intervals are too narrow",
-                "white", "correlated"}));
-  return warnings;
 }
 
 }  // namespace codesign

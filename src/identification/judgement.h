@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "identification/effort/effort_doubts.h"
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/identification_result.h"
 #include "identification/fit/residual_fit.h"
+#include "statistics/identifiability.h"
 
 namespace codesign {
 
@@ -29,6 +29,13 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
 bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossOptions& loss,
                       const IdentificationResult& result);
 
+/// The same of directions that were found. @param columns of x to which they belong
+bool decides(const FitPrior& prior, const Eigen::VectorXd& x, const std::vector<int>& columns,
+             const Identifiability& found);
+
+/// kNotIdentifiable: `what`, and the first of the sentences; all stand in the result.
+Status not_identifiable(const std::string& what, const std::vector<std::string>& sentences);
+
 /// Computes intervals of the profile likelihood of all numbers that the data determine: each number
 /// is fixed in turn, and all others are fitted again.
 /// @param problem, source as in the fit. @param cancel once set, ends the profiles early. @param
@@ -36,18 +43,5 @@ bool decides_the_rest(const FitPrior& prior, const ResidualFit& fit, const LossO
 void add_profiles(const FitProblem& problem, const IdentificationDescription& options,
                   const ResidualFit& fit, ResidualSource* source, const FitObserver& observer,
                   const std::atomic<bool>* cancel, IdentificationResult* result);
-
-/// Warnings `effort_not_explained` or `motion_not_explained` for the outputs of which the fit
-/// explains less than half; `recording_effort` for the other doubts about a unit, and for those
-/// whose mended mistake explains clearly more than the fit. @param doubts about the recordings as
-/// the model stands. @param failure set if the fit explains less than a tenth of an output, or if a
-/// mistake in the recording explains more
-Warnings unexplained_outputs(const IdentificationDescription& options,
-                             const IdentificationResult& result,
-                             const std::vector<EffortDoubt>& doubts, Status* failure);
-
-/// Warnings about the result: `holdout_failed` first, `max_evaluations_reached`, `fit_hindered`,
-/// `identified_on_bound`, `correlated_residuals`, `delay_in_noise`.
-Warnings warnings_of(const IdentificationDescription& options, const IdentificationResult& result);
 
 }  // namespace codesign

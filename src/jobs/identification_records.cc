@@ -84,9 +84,10 @@ void add_rows(const std::string& set, const FittedSeries& series,
     }
 }
 
-std::string sentence_of(const std::string& set, const OutputFit& fit) {
-  return set + ", " + fit.joint + ": root mean square of the residuals " + readable(fit.start) +
-         " -> " + readable(fit.rms) + " of " + readable(fit.recorded) + " recorded, " +
+std::string sentence_of(const std::string& set, const OutputFit& fit, bool is_fitted) {
+  return set + ", " + fit.joint + ": root mean square of the residuals " +
+         (is_fitted ? readable(fit.start) + " -> " : "") + readable(fit.rms) + " of " +
+         readable(fit.recorded) + " recorded, " +
          readable(100.0 * std::max(0.0, fit.explained), 3) + " % explained" +
          (fit.whiteness.probability < kWhiteBelow ? "; not white, correlation of neighbours " +
                                                         readable(fit.whiteness.first_correlation, 2)
@@ -160,28 +161,36 @@ std::string of_the_study(const IdentificationResult& result,
   return lines.empty() ? "" : "Not of the model; a study takes them so:" + lines;
 }
 
+/// The fitted numbers, and how well they are known.
+void add_numbers(const Problem& problem, const IdentificationResult& result, Json* object) {
+  Json& to = *object;
+  Json names = Json::array();
+  for (const IdentifiedNumber& number : result.numbers) {
+    to["identified"][number.name] = number_json(number);
+    names.push_back(number.name);
+  }
+  const IntervalOptions& intervals = study_of(problem).identification->intervals;
+  to["level"] = intervals.level;
+  to["noise"] = kNoiseNames[to_index(intervals.noise)];
+  to["lag"] = result.lag;
+  to["rank"] = result.rank;
+  to["undetermined"] = result.undetermined;
+  to["combinations"] = records_json(result.combinations);
+  to["names"] = std::move(names);
+  to["covariance"] = rows_json(result.covariance);
+  to["correlation"] = rows_json(correlation_of(result.covariance));
+}
+
 }  // namespace
 
 Json identification_json(const Problem& problem, const IdentificationResult& result) {
   Json object = record_json(result);
-  if (result.numbers.empty()) return object;
+  if (result.data.empty() && result.holdout.empty()) return object;
   object["parameters"] = parameters_json(problem, result.parameters);
-  Json names = Json::array();
-  for (const IdentifiedNumber& number : result.numbers) {
-    object["identified"][number.name] = number_json(number);
-    names.push_back(number.name);
-  }
-  const IntervalOptions& intervals = study_of(problem).identification->intervals;
-  object["level"] = intervals.level;
-  object["noise"] = kNoiseNames[to_index(intervals.noise)];
-  object["lag"] = result.lag;
-  object["rank"] = result.rank;
-  object["undetermined"] = result.undetermined;
-  object["combinations"] = records_json(result.combinations);
-  object["names"] = std::move(names);
-  object["covariance"] = rows_json(result.covariance);
-  object["correlation"] = rows_json(correlation_of(result.covariance));
-  object["data"] = outputs_json(result.data, result.samples);
+  if (!result.numbers.empty()) add_numbers(problem, result, &object);
+  object["loss"] = study_of(problem).identification->loss.kind->name;
+  object["inflation"] = result.inflation;
+  if (!result.data.empty()) object["data"] = outputs_json(result.data, result.samples);
   if (!result.searches.starts.empty())
     object["multistart"] = searches_json(result.searches, result.numbers);
   if (!result.holdout.empty())
@@ -189,12 +198,22 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   return object;
 }
 
+void append_first(const std::string& what, const std::vector<std::string>& whole,
+                  const std::string& rest, std::vector<std::string>* sentences) {
+  constexpr std::size_t kLongest = 160;
+  for (std::size_t k = 0; k < std::min(kToldSentences, whole.size()); ++k)
+    sentences->push_back(what + (whole[k].size() <= kLongest
+                                     ? whole[k]
+                                     : whole[k].substr(0, kLongest - 4) + " ..."));
+  if (whole.size() > kToldSentences)
+    sentences->push_back("and " + std::to_string(whole.size() - kToldSentences) + " more; " + rest);
+}
+
 namespace {
 
 /// With a prior that decides the rest, one line; else the first sentences. Long ones stand in the
 /// JSON.
 void append_undetermined(const IdentificationResult& result, std::vector<std::string>* sentences) {
-  constexpr std::size_t kLongest = 160;
   if (result.undetermined.empty()) return;
   if (result.status.ok()) {
     const auto on_bound = std::count_if(
@@ -207,23 +226,18 @@ void append_undetermined(const IdentificationResult& result, std::vector<std::st
                          std::to_string(free - result.rank));
     return;
   }
-  for (std::size_t k = 0; k < std::min(kToldSentences, result.undetermined.size()); ++k) {
-    const std::string& whole = result.undetermined[k];
-    sentences->push_back("not identifiable: " + (whole.size() <= kLongest
-                                                     ? whole
-                                                     : whole.substr(0, kLongest - 4) + " ..."));
-  }
-  if (result.undetermined.size() > kToldSentences)
-    sentences->push_back("and " + std::to_string(result.undetermined.size() - kToldSentences) +
-                         " more; what is known stands below");
+  append_first("not identifiable: ", result.undetermined, "what is known stands below", sentences);
 }
 
 }  // namespace
 
 std::vector<std::string> identification_sentences(const IdentificationResult& result) {
   std::vector<std::string> sentences;
-  for (const OutputFit& fit : result.holdout) sentences.push_back(sentence_of("holdout", fit));
-  for (const OutputFit& fit : result.data) sentences.push_back(sentence_of("fitted data", fit));
+  const bool is_fitted = result.termination != kEvaluated;
+  for (const OutputFit& fit : result.holdout)
+    sentences.push_back(sentence_of("holdout", fit, is_fitted));
+  for (const OutputFit& fit : result.data)
+    sentences.push_back(sentence_of(is_fitted ? "fitted data" : "data", fit, is_fitted));
   append_undetermined(result, &sentences);
   const std::vector<Optimum>& optima = result.searches.optima;
   for (std::size_t k = 0; k < std::min(kShownOptima, optima.size()); ++k)
@@ -243,7 +257,7 @@ std::string identification_report(const Problem& problem, const IdentificationRe
 
 std::vector<std::string> residual_columns(const IdentificationResult& result) {
   std::vector<std::string> columns = {"set", "recording", "time"};
-  for (const OutputFit& fit : result.data) {
+  for (const OutputFit& fit : result.data.empty() ? result.holdout : result.data) {
     columns.push_back(fit.joint + "/recorded");
     columns.push_back(fit.joint + "/computed");
   }
@@ -260,12 +274,16 @@ std::vector<std::vector<std::string>> residual_rows(const IdentificationResult& 
 std::vector<IdentificationFile> identification_files(const Problem& problem,
                                                      const IdentificationResult& result,
                                                      const std::string& json) {
-  return {{"identification.json", [&json] { return json; }},
-          {"identified_overlay.urdf",
-           [&problem, &result] { return identified_overlay(problem, result); }},
-          {"identified.urdf", [&problem, &result] { return identified_urdf(problem, result); }},
-          {"residuals.csv", [&result] { return residuals_text(result); }},
-          {"job_study.yaml", [&problem] { return problem.study_text().text; }}};
+  std::vector<IdentificationFile> files = {{"identification.json", [&json] { return json; }}};
+  if (result.termination != kEvaluated) {
+    files.push_back({"identified_overlay.urdf",
+                     [&problem, &result] { return identified_overlay(problem, result); }});
+    files.push_back(
+        {"identified.urdf", [&problem, &result] { return identified_urdf(problem, result); }});
+  }
+  files.push_back({"residuals.csv", [&result] { return residuals_text(result); }});
+  files.push_back({"job_study.yaml", [&problem] { return problem.study_text().text; }});
+  return files;
 }
 
 IdentificationShow identification_show(const Problem& problem, const IdentificationResult& result,
@@ -277,7 +295,8 @@ IdentificationShow identification_show(const Problem& problem, const Identificat
                           result.data_series,
                           result.holdout_series,
                           {}};
-  for (const OutputFit& fit : result.data) show.joints.push_back(fit.joint);
+  for (const OutputFit& fit : result.data.empty() ? result.holdout : result.data)
+    show.joints.push_back(fit.joint);
   return show;
 }
 

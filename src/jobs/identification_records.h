@@ -27,6 +27,11 @@ std::string identification_report(const Problem& problem, const IdentificationRe
 /// data do not determine, residuals by joint.
 std::vector<std::string> identification_sentences(const IdentificationResult& result);
 
+/// Appends the first few of sentences that the JSON has whole, each shortened, with `what` before
+/// it and a line that counts the others. @param rest where they stand
+void append_first(const std::string& what, const std::vector<std::string>& whole,
+                  const std::string& rest, std::vector<std::string>* sentences);
+
 /// Columns and rows of residuals.csv: set (data or holdout), recording (from 1), time [s], then per
 /// joint JOINT/recorded and JOINT/computed.
 std::vector<std::string> residual_columns(const IdentificationResult& result);
@@ -39,7 +44,8 @@ struct IdentificationFile {
 };
 
 /// The text files of an identification with numbers: identification.json, identified_overlay.urdf,
-/// identified.urdf, residuals.csv, and the study as job_study.yaml; doc/study.md. The texts may
+/// identified.urdf (both only of a fit), residuals.csv, and the study as job_study.yaml;
+/// doc/study.md. The texts may
 /// throw. @param json the text of identification_json() with all additions of the front end. All
 /// three arguments must outlive the texts.
 std::vector<IdentificationFile> identification_files(const Problem& problem,

@@ -7,6 +7,7 @@
 #include "description/study.h"
 #include "equations/equations.h"
 #include "excitation/excitation_result.h"
+#include "jobs/identification_records.h"
 #include "jobs/json.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"
@@ -119,8 +120,14 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
 
 std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
   std::vector<std::string> sentences;
-  for (const std::string& sentence : result.undetermined)
-    sentences.push_back("not identifiable by any trajectory: " + sentence);
+  if (result.status.ok() && !result.undetermined.empty())
+    sentences.push_back("trajectories determine " + std::to_string(result.counted) +
+                        " numbers or combinations of " + std::to_string(result.numbers.size()) +
+                        " numbers; the prior decides the other " +
+                        std::to_string(result.numbers.size() - to_index(result.counted)));
+  else
+    append_first("not identifiable by any trajectory: ", result.undetermined,
+                 "excitation.json has all", &sentences);
   if (result.points.joints.empty()) return sentences;
   if (!std::isfinite(result.criterion))
     sentences.push_back("no single trajectory was found that determines all numbers");

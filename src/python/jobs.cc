@@ -104,9 +104,9 @@ StudyRecordings recordings_of(const Problem& problem, const std::optional<Record
 }
 
 /// A study without `identify:` has its defaults.
-Problem identifiable(const Problem& problem, bool has_arrays) {
+Problem identifiable(const Problem& problem, bool has_arrays, bool is_fitted) {
   if (study_of(problem).identification || !has_arrays) return problem;
-  require_tuned(study_of(problem));
+  if (is_fitted) require_tuned(study_of(problem));
   Study study = study_of(problem);
   study.identification.emplace().where = {study.file, 1};
   return with_study(problem, std::move(study));
@@ -176,9 +176,12 @@ Traded tradeoff(const Problem& problem, int points, const Tell& tell,
 }
 
 Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
-                    const Tell& tell, const std::atomic<bool>* cancel) {
-  Identified identified{identifiable(problem, arrays.has_value()), {}, {}};
-  require_identification(identified.problem);
+                    bool is_fitted, const Tell& tell, const std::atomic<bool>* cancel) {
+  Identified identified{identifiable(problem, arrays.has_value(), is_fitted), {}, {}};
+  if (is_fitted)
+    require_identification(identified.problem);
+  else
+    require_recordings_named(identified.problem);
   Warnings warnings;
   const StudyRecordings recordings = recordings_of(identified.problem, arrays, &warnings, cancel);
   FitLines lines(problem.optimizer_options().max_evaluations);
@@ -187,7 +190,9 @@ Identified identify(const Problem& problem, const std::optional<RecordedArrays>&
     const std::string line = lines.line(trial);
     return line.empty() || tell(line, fields_of(trial));
   };
-  identified.result = codesign::identify(identified.problem, recordings, observer, cancel);
+  identified.result = is_fitted
+                          ? codesign::identify(identified.problem, recordings, observer, cancel)
+                          : evaluate_model(identified.problem, recordings, cancel);
   append(warnings, &identified.result.warnings);
   identified.json =
       identification_report(identified.problem, identified.result, identified.result.warnings);

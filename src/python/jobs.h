@@ -60,10 +60,11 @@ struct Identified {
   std::string json;  ///< the text of identification.json
 };
 
-/// `codesign identify`. @param arrays in place of the recordings that the study names; the study
-/// may then be without `identify:`. @throws InputError as the command line
+/// `codesign identify`. @param is_fitted false: `--evaluate`. @param arrays in place of the
+/// recordings that the study names; the study may then be without `identify:`. @throws InputError
+/// as the command line
 Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
-                    const Tell& tell, const std::atomic<bool>* cancel);
+                    bool is_fitted, const Tell& tell, const std::atomic<bool>* cancel);
 
 /// Writes the text files that `codesign identify --output` leaves. @throws as above
 std::vector<Failure> write_folder(const Identified& identified, const std::string& folder);

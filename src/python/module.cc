@@ -9,6 +9,7 @@
 #include "description/study.h"
 #include "jobs/job_files.h"
 #include "jobs/json_records.h"
+#include "jobs/judged_fits.h"
 #include "jobs/linear_records.h"
 #include "jobs/optimization_records.h"
 #include "jobs/saved_result.h"
@@ -280,7 +281,9 @@ void add_jobs(py::module_* module) {
       .def_property_readonly(
           "warnings", [](const Identified& of) { return to_python(to_json(of.result.warnings)); })
       .def_property_readonly("has_point",
-                             [](const Identified& of) { return !of.result.numbers.empty(); })
+                             [](const Identified& of) {
+                               return !of.result.data.empty() || !of.result.holdout.empty();
+                             })
       .def_property_readonly("covariance",
                              [](const Identified& of) { return to_array(of.result.covariance); })
       .def_property_readonly("time",
@@ -292,6 +295,11 @@ void add_jobs(py::module_* module) {
           "recorded", [](const Identified& of) { return to_array(of.result.data_series.recorded); })
       .def_property_readonly(
           "computed", [](const Identified& of) { return to_array(of.result.data_series.computed); })
+      .def("against",
+           [](const Identified& of, const std::string& name, const std::string& text) {
+             return to_python(comparison_json({name, text}, {"this result", of.json}));
+           })
+      .def_readonly("json", &Identified::json)
       .def("write", [](const Identified& of, const std::string& folder) {
         require_written(write_folder(of, folder), folder);
       });
@@ -343,10 +351,10 @@ void add_session(py::module_* module) {
              });
            })
       .def("identify", [](const Session& of, const py::object& time, const py::list& columns,
-                          const py::object& progress, const py::object& cancel) {
+                          bool is_fitted, const py::object& progress, const py::object& cancel) {
         const std::optional<RecordedArrays> arrays = arrays_of(time, columns);
         return job(progress, cancel, [&](const Tell& tell, const std::atomic<bool>* stop) {
-          return identify(of.problem(), arrays, tell, stop);
+          return identify(of.problem(), arrays, is_fitted, tell, stop);
         });
       });
   module->def("open", &open);

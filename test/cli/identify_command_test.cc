@@ -115,6 +115,27 @@ TEST_F(IdentifyCommand, WithoutABagWriterThereIsNoBag) {
   EXPECT_FALSE(has("identification.bag"));
 }
 
+TEST_F(IdentifyCommand, JudgesAModelAsItStandsAndAgainstAnother) {
+  std::vector<std::string> judge = words();
+  judge.emplace_back("--evaluate");
+  const Outcome judged = run_words(judge);
+  EXPECT_EQ(judged.code, kDone) << judged.err;
+  EXPECT_EQ(judged.out.find("data, hinge: root mean square of the residuals 1.28"), 0U)
+      << judged.out;
+  EXPECT_EQ(judged.out.find("number "), std::string::npos) << judged.out;
+  EXPECT_TRUE(has("identification.json"));
+  EXPECT_FALSE(has("identified.urdf"));
+  const Outcome fitted =
+      run_words({"identify", words().at(1), words().at(2), "--against",
+                 folder_.path("job/identification.json"), "--set", "viscous=0.2"});
+  EXPECT_EQ(fitted.code, kDone) << fitted.err;
+  EXPECT_NE(fitted.out.find("of the 2 further numbers here"), std::string::npos) << fitted.out;
+  const Outcome wrong = run_words(
+      {"identify", words().at(1), words().at(2), "--against", folder_.path("study.yaml")});
+  EXPECT_EQ(wrong.code, kBadInput);
+  EXPECT_NE(wrong.err.find("study.yaml: identification: not JSON"), std::string::npos) << wrong.err;
+}
+
 TEST_F(IdentifyCommand, AStudyWithoutRecordingsIsBadInput) {
   std::ofstream(folder_.path("study.yaml")) << "duration: 1.0\n";
   const Outcome outcome = run_words(words());

@@ -164,6 +164,20 @@ TEST(Excite, AMassOnTheAxisHasNoEffect) {
   EXPECT_TRUE(std::isfinite(number_of(result, "inertia").half));
 }
 
+TEST(Excite, WhatAPriorDecidesIsNoFailure) {
+  const auto excited = [](const std::string& prior) {
+    return excite(load_problem({"pendulum.urdf", pendulum_urdf("0 0 1", "0 0 -0.5")}, {},
+                               {"study.yaml", "identify: {prior: {" + prior +
+                                                  ": 0.3}}\nexcite: {joints: {hinge: {noise: "
+                                                  "0.1}}, starts: 1, max_evaluations: 20}\n"
+                                                  "parameters: {mass: {}, inertia: {}}\n"}),
+                  {}, nullptr);
+  };
+  EXPECT_TRUE(excited("mass").status.ok());
+  EXPECT_EQ(excited("mass").undetermined, (std::vector<std::string>{"mass has no effect"}));
+  EXPECT_EQ(excited("inertia").status.code, StatusCode::kNotIdentifiable);
+}
+
 TEST(Excite, ACancelKeepsTheBestTrajectory) {
   const Problem problem = pendulum("starts: 3");
   std::atomic<bool> cancel{false};

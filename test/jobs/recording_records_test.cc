@@ -86,6 +86,12 @@ TEST(ExcitationRecords, NothingFoundIsShort) {
 TEST(ExcitationRecords, Sentences) {
   ExcitationResult result = some_result();
   result.undetermined = {"mass and inertia appear only as mass + 4 inertia"};
+  result.numbers.resize(2);
+  result.counted = 1;
+  EXPECT_EQ(excitation_sentences(result)[0],
+            "trajectories determine 1 numbers or combinations of 2 numbers; the prior decides the "
+            "other 1");
+  result.status.code = StatusCode::kNotIdentifiable;
   const std::vector<std::string> sentences = excitation_sentences(result);
   ASSERT_EQ(sentences.size(), 2U);
   EXPECT_NE(sentences[0].find("not identifiable by any trajectory: mass and inertia"),

@@ -226,6 +226,25 @@ class Identification(Files):
         self.assertEqual(set(os.listdir(self.path("job"))), {n for n in os.listdir(self.path("line")) if not n.endswith(".bag")})
         self.assertIn("mass", from_file.report())
 
+    def test_a_model_is_judged_without_a_fit(self):
+        t, q, effort = recorded()
+        problem = codesign.Problem(ARM, FIT)
+        fit, judged = problem.identify(t, q, effort), problem.identify(t, q, effort, evaluate=True)
+        self.assertTrue(judged.status.ok)
+        self.assertEqual((judged.termination, judged.numbers), ("evaluated", {}))
+        self.assertEqual(judged.record["data"]["joints"]["shoulder"]["rms"], fit.record["data"]["joints"]["shoulder"]["start_rms"])
+        residuals = judged.computed["shoulder"] - judged.recorded["shoulder"]
+        self.assertAlmostEqual(np.sqrt(np.mean(residuals ** 2)), judged.record["data"]["joints"]["shoulder"]["rms"], delta=1e-12)
+        comparison = fit.against(judged)
+        self.assertLess(comparison["criterion"], 0.0)
+        self.assertEqual((comparison["nested"], comparison["degrees"], comparison["larger"]), (True, 2, "here"))
+        judged.write(self.path("judged"))
+        self.assertEqual(set(os.listdir(self.path("judged"))), {"identification.json", "residuals.csv", "job_study.yaml"})
+        again = fit.against(os.path.join(self.path("judged"), "identification.json"))
+        self.assertEqual(again["criterion"], comparison["criterion"])
+        with self.assertRaises(codesign.InputError):
+            fit.against(self.written("other.json", "{}"))
+
     def test_the_columns_of_a_table_go_by_their_names(self):
         class Frame:
             """As a pandas.DataFrame."""

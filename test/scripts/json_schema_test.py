@@ -200,7 +200,8 @@ class Outputs(unittest.TestCase):
             subprocess.run([CODESIGN, "simulate", model, moving, "--signals", signals, "--csv", recording, "--samples", "400"], check=True, cwd=ROOT, capture_output=True)
             study.write_text(MOTION + "identify: {data: [{csv: run.csv}], holdout: [{csv: run.csv}]}\nparameters: {counterweight: {initial: 1.8}}\n")
             self.check("check", model, study)
-            self.check("identify", model, study)
+            self.check("identify", model, study, "--output", pathlib.Path(folder) / "fit")
+            self.check("identify", model, study, "--evaluate", "--against", pathlib.Path(folder) / "fit" / "identification.json")
 
     def test_a_project_from_the_gallery(self):
         self.assertTrue(self.check("new")["machines"])

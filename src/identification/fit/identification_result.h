@@ -58,18 +58,23 @@ struct FittedSeries {
   Eigen::MatrixXd recorded, computed;  ///< rows x outputs
 };
 
+/// The termination of a result in which nothing was fitted: evaluate_model().
+inline constexpr const char* kEvaluated = "evaluated";
+
 /// The result of `codesign identify`.
 struct IdentificationResult {
   /// ok; kNotIdentifiable, with all members; kCancelled, with the best point; or the failure of the
   /// start
   Status status;
   std::string termination;                ///< as OptimizationResult::termination
-  std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed
+  std::vector<IdentifiedNumber> numbers;  ///< empty if the start failed or nothing was fitted
   Eigen::VectorXd x;
   std::vector<double> parameters;  ///< all named parameters (order of Study::parameters)
   /// of x; zero for numbers on a bound, infinite or NaN for numbers that the data do not determine
   Eigen::MatrixXd covariance;
   int rank = 0;  ///< rank of the Jacobian by the numbers that are not on a bound
+  /// mean over the determined numbers of variance / variance if the noise were white; 1 of none
+  double inflation = 1.0;
   /// sentences about numbers that the data do not determine
   std::vector<std::string> undetermined;
   std::vector<BaseParameter> combinations;  ///< what the data determine of these numbers

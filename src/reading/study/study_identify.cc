@@ -61,15 +61,6 @@ void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
                           "a number in rad or m"});
 }
 
-bool has_fitted(const RecordingDescription& recording) {
-  return std::any_of(recording.starts.begin(), recording.starts.end(),
-                     [](const StartPosition& start) { return start.position.is_fitted; });
-}
-
-bool has_fitted(const JointCalibration& joint) {
-  return joint.effort_scale.is_fitted || joint.delay.is_fitted || joint.offset.is_fitted;
-}
-
 LossOptions read_loss(const YamlValue& loss) {
   LossOptions options;
   read_options(loss, &options, {"type"});
@@ -140,13 +131,6 @@ IdentificationDescription read_identification(const YamlValue& identify,
   if (const auto intervals = identify.find("intervals"))
     description.intervals = read_intervals(*intervals);
   if (const auto prior = identify.find("prior")) description.priors = read_priors(*prior, study);
-  const bool fits_a_joint = std::any_of(description.joints.begin(), description.joints.end(),
-                                        [](const auto& of) { return has_fitted(of); });
-  const bool fits_a_start = std::any_of(description.data.begin(), description.data.end(),
-                                        [](const auto& of) { return has_fitted(of); });
-  if (study.tuned.empty() && !fits_a_joint && !fits_a_start)
-    identify.fail("there is nothing to identify",
-                  "at least one parameter under parameters, or a map under identify.joints.JOINT");
   return description;
 }
 

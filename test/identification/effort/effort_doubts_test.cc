@@ -8,8 +8,8 @@
 #include <random>
 
 #include "description/study.h"
+#include "identification/fit_doubts.h"
 #include "identification/identify.h"
-#include "identification/judgement.h"
 #include "identification/motion_rig.h"
 #include "identification/simulated_recording.h"
 #include "identification/swinging_arm.h"

@@ -1,0 +1,137 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "jobs/judged_fits.h"
+
+#include <cmath>
+#include <utility>
+
+#include "mechanism_codesign/error.h"
+#include "text/number_text.h"
+
+namespace codesign {
+namespace {
+
+[[noreturn]] void fail(const SourceText& json, const std::string& message) {
+  throw InputError({{json.name, 0},
+                    "identification",
+                    message,
+                    "",
+                    "identification.json as codesign identify --output or --json writes it"});
+}
+
+std::vector<JudgedOutput> outputs_of(const Json& root, const char* set) {
+  std::vector<JudgedOutput> outputs;
+  if (!root.contains(set)) return outputs;
+  for (const auto& [name, output] : root.at(set).at("joints").items())
+    outputs.push_back({name, output.at("recorded_rms").get<double>(),
+                       output.at("rms").get<double>(), output.at("explained").get<double>()});
+  return outputs;
+}
+
+/// Of each output that both have: what the other model and this one leave, and explain.
+Json pairs(const std::vector<JudgedOutput>& other, const std::vector<JudgedOutput>& here) {
+  Json object = Json::object();
+  for (const JudgedOutput& left : other)
+    for (const JudgedOutput& right : here)
+      if (left.name == right.name)
+        object[left.name] = {{"rms", {left.rms, right.rms}},
+                             {"explained", {left.explained, right.explained}}};
+  return object;
+}
+
+void add_criterion(const ModelComparison& comparison, Json* object) {
+  Json& to = *object;
+  to["inflation"] = comparison.inflation;
+  to["criterion"] = comparison.criterion;
+  to["nested"] = comparison.is_nested;
+  if (!comparison.is_nested) return;
+  to["larger"] = comparison.is_here_larger ? "here" : "other";
+  to["statistic"] = comparison.statistic;
+  to["degrees"] = comparison.degrees;
+  to["probability"] = comparison.probability;
+}
+
+void append_outputs(const std::string& set, const Json& outputs,
+                    std::vector<std::string>* sentences) {
+  for (const auto& [name, output] : outputs.items()) {
+    const auto share = [&output = output](int k) {
+      return readable(100.0 * std::max(0.0, output.at("explained").at(k).get<double>()), 3) + " %";
+    };
+    sentences->push_back(set + ", " + name + ": root mean square of the residuals " +
+                         readable(output.at("rms").at(0).get<double>()) + " there, " +
+                         readable(output.at("rms").at(1).get<double>()) + " here; explained " +
+                         share(0) + ", " + share(1));
+  }
+}
+
+std::string nested_sentence(const Json& comparison) {
+  const int degrees = comparison.at("degrees").get<int>();
+  const std::string further =
+      degrees == 1 ? "the further number " : "the " + std::to_string(degrees) + " further numbers ";
+  const bool is_here = comparison.at("larger") == "here";
+  const double statistic = comparison.at("statistic").get<double>();
+  if (statistic < 0.0)
+    return std::string("the model with more numbers (") + (is_here ? "here" : "there") +
+           ") fits worse, though the other one is among its cases by the names of their numbers: "
+           "its fit has not ended at its optimum, or the models differ in more";
+  return "the likelihood ratio of " + further + (is_here ? "here" : "there") + " is " +
+         readable(statistic) + "; numbers that are not needed reach that with a probability of " +
+         readable(comparison.at("probability").get<double>(), 3);
+}
+
+}  // namespace
+
+JudgedModel read_judged_model(const SourceText& json) {
+  Json root;
+  try {
+    root = Json::parse(json.text);
+  } catch (const Json::exception&) {
+    fail(json, "not JSON");
+  }
+  try {
+    JudgedModel model;
+    if (root.contains("names")) model.numbers = root.at("names").get<std::vector<std::string>>();
+    model.rank = root.value("rank", 0);
+    model.inflation = root.at("inflation").get<double>();
+    model.is_squares = root.at("loss") == "square";
+    model.data = outputs_of(root, "data");
+    model.holdout = outputs_of(root, "holdout");
+    if (!model.data.empty()) model.samples = root.at("data").at("samples").get<long>();
+    if (model.data.empty() && model.holdout.empty()) fail(json, "no outputs in data or holdout");
+    return model;
+  } catch (const Json::exception& error) {
+    const std::string what = error.what();  // "[json.exception.out_of_range.403] key 'loss' ..."
+    fail(json, "no result of codesign identify: " + what.substr(what.find("] ") + 2));
+  }
+}
+
+Json comparison_json(const SourceText& other, const SourceText& here) {
+  const JudgedModel there = read_judged_model(other), model = read_judged_model(here);
+  const ModelComparison comparison = compare_models(there, model);
+  Json object = {{"other", other.name}, {"numbers", {there.numbers.size(), model.numbers.size()}}};
+  if (comparison.refusal.empty())
+    add_criterion(comparison, &object);
+  else
+    object["refusal"] = comparison.refusal;
+  object["data"] = pairs(there.data, model.data);
+  object["holdout"] = pairs(there.holdout, model.holdout);
+  return object;
+}
+
+std::vector<std::string> comparison_sentences(const Json& comparison) {
+  std::vector<std::string> sentences;
+  append_outputs("holdout", comparison.at("holdout"), &sentences);
+  append_outputs("data", comparison.at("data"), &sentences);
+  if (comparison.contains("refusal")) {
+    sentences.push_back("no criterion: " + comparison.at("refusal").get<std::string>());
+    return sentences;
+  }
+  const double criterion = comparison.at("criterion").get<double>();
+  sentences.push_back("Akaike's criterion here is " + readable(std::abs(criterion)) +
+                      (criterion < 0.0 ? " lower: this model" : " higher: the other model") +
+                      " is expected to predict better; variances inflated by " +
+                      readable(comparison.at("inflation").get<double>(), 3));
+  if (comparison.at("nested").get<bool>()) sentences.push_back(nested_sentence(comparison));
+  return sentences;
+}
+
+}  // namespace codesign
