@@ -121,6 +121,14 @@ void set_folder(const std::string& path, bool resume, Arguments* arguments) {
   arguments->resume = arguments->resume || resume;
 }
 
+std::function<void(const std::string&, Arguments*)> text_into(std::string Arguments::*member) {
+  return [member](const std::string& text, Arguments* to) { to->*member = text; };
+}
+
+std::function<void(const std::string&, Arguments*)> sets(bool Arguments::*member) {
+  return [member](const std::string&, Arguments* to) { to->*member = true; };
+}
+
 const std::map<std::string, Option>& options() {
   using Value = Option::Value;
   static const Names kAll = command_names();
@@ -134,20 +142,15 @@ const std::map<std::string, Option>& options() {
         [](const std::string& text, Arguments* to) { to->overlays.push_back(text); }}},
       {"--base", {Value::kRequired, {}, set_base}},
       {"--set", {Value::kRequired, kOfDesigns, add_setting}},
-      {"--result",
-       {Value::kRequired, kOfDesigns,
-        [](const std::string& text, Arguments* to) { to->result = text; }}},
-      {"--json", {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->json = true; }}},
-      {"--quiet",
-       {Value::kNone, kAll, [](const std::string&, Arguments* to) { to->quiet = true; }}},
-      {"--sticks",
-       {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->sticks = true; }}},
-      {"--fill",
-       {Value::kNone, {"urdf"}, [](const std::string&, Arguments* to) { to->fill = true; }}},
+      {"--result", {Value::kRequired, kOfDesigns, text_into(&Arguments::result)}},
+      {"--json", {Value::kNone, kAll, sets(&Arguments::json)}},
+      {"--quiet", {Value::kNone, kAll, sets(&Arguments::quiet)}},
+      {"--sticks", {Value::kNone, {"urdf"}, sets(&Arguments::sticks)}},
+      {"--fill", {Value::kNone, {"urdf"}, sets(&Arguments::fill)}},
       {"--run",
        {Value::kRequired,
         {"simulate", "efforts", "equilibrium", "linearize", "gradient"},
-        [](const std::string& text, Arguments* to) { to->run = text; }}},
+        text_into(&Arguments::run)}},
       {"--signals",
        {Value::kRequired, {"simulate", "efforts", "equilibrium", "linearize"}, add_signals}},
       {"--friction", {Value::kRequired, {"equilibrium", "linearize"}, set_friction}},
@@ -155,18 +158,12 @@ const std::map<std::string, Option>& options() {
       {"--csv",
        {Value::kRequired,
         {"simulate", "efforts", "linearize", "tradeoff"},
-        [](const std::string& text, Arguments* to) { to->csv = text; }}},
+        text_into(&Arguments::csv)}},
       {"--points", {Value::kRequired, {"tradeoff"}, set_points}},
       {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
-      {"--evaluate",
-       {Value::kNone,
-        {"identify"},
-        [](const std::string&, Arguments* to) { to->evaluate = true; }}},
-      {"--against",
-       {Value::kRequired,
-        {"identify"},
-        [](const std::string& text, Arguments* to) { to->against = text; }}},
+      {"--evaluate", {Value::kNone, {"identify"}, sets(&Arguments::evaluate)}},
+      {"--against", {Value::kRequired, {"identify"}, text_into(&Arguments::against)}},
       {"--output",
        {Value::kRequired,
         {"optimize", "identify", "excite"},
@@ -175,10 +172,7 @@ const std::map<std::string, Option>& options() {
        {Value::kRequired,
         {"optimize"},
         [](const std::string& text, Arguments* to) { set_folder(text, true, to); }}},
-      {"--from",
-       {Value::kRequired,
-        {"new"},
-        [](const std::string& text, Arguments* to) { to->from = text; }}},
+      {"--from", {Value::kRequired, {"new"}, text_into(&Arguments::from)}},
   };
   return kOptions;
 }
