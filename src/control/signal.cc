@@ -149,8 +149,7 @@ Signal resolve_signal(const SignalDescription& signal, const RobotDescription& r
       reference.axis = axis_of(term.component);
     } else if (const auto element = find_link_element(term, robot)) {
       reference.kind = kind_of(element->kind, term);
-      (element->kind == SignalOwner::kSpring ? reference.spring : reference.contact) =
-          element->index;
+      reference.link_element = element->index;
     } else if (const auto controller = find_named(controllers, term.object)) {
       reference.kind = kind_of(SignalOwner::kController, term);
       reference.controller = *controller;

@@ -28,8 +28,8 @@ struct SignalReference : CoordinateIndex {
   /// frame that the child carries
   int axes = -1;
   int controller = -1;  ///< index of a controller
-  int spring = -1;      ///< index in RobotDescription::spring_dampers
-  int contact = -1;     ///< index in RobotDescription::contacts
+  /// index of an element between links, in the list of its kind, LinkElement::index
+  int link_element = -1;
 };
 
 /// An expression of signals with its names resolved.

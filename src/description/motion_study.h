@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -68,6 +69,13 @@ struct ControllerDescription {
   BasisDescription basis;              ///< kBasis
   ControlRealization realization;      ///< how a robot runs it
   SourceLocation where;
+
+  /// Whether one of its signals passes a filter.
+  bool has_filters() const {
+    return !filters.empty() ||
+           std::any_of(feedback.begin(), feedback.end(),
+                       [](const FeedbackTerm& term) { return !term.filters.empty(); });
+  }
 };
 
 /// A component of a load: a function of time, or an expression of signals.

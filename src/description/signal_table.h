@@ -276,31 +276,35 @@ inline constexpr auto kRows = std::make_tuple(
                  [](const auto& view, const auto& of) { return link_angular_velocity(view, of); }),
     signal_entry({K::kSpringForce, Of::kSpring, "force", "N", nullptr, Needs::kMotion},
                  [](const auto& view, const auto& of) {
-                   return spring_at(view, to_index(of.spring)).tension;
+                   return spring_at(view, to_index(of.link_element)).tension;
                  }),
     signal_entry(
         {K::kSpringLength, Of::kSpring, "length", "m", nullptr, Needs::kMotion, K::kSpringSpeed},
         [](const auto& view, const auto& of) {
-          return spring_at(view, to_index(of.spring)).length;
+          return spring_at(view, to_index(of.link_element)).length;
         }),
-    signal_entry(
-        {K::kSpringSpeed, Of::kSpring, "speed", "m/s", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return spring_speed(view, to_index(of.spring)); }),
+    signal_entry({K::kSpringSpeed, Of::kSpring, "speed", "m/s", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return spring_speed(view, to_index(of.link_element));
+                 }),
     signal_entry(
         {K::kContactGap, Of::kContact, "gap", "m", nullptr, Needs::kMotion, K::kContactGapRate},
-        [](const auto& view, const auto& of) { return nearest_point(view, of.contact).gap; }),
-    signal_entry(
-        {K::kContactGapRate, Of::kContact, "gap_rate", "m/s", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return nearest_point(view, of.contact).gap_rate; }),
+        [](const auto& view, const auto& of) { return nearest_point(view, of.link_element).gap; }),
+    signal_entry({K::kContactGapRate, Of::kContact, "gap_rate", "m/s", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return nearest_point(view, of.link_element).gap_rate;
+                 }),
     signal_entry(
         {K::kContactNormalForce, Of::kContact, "normal_force", "N", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return contact_normal_force(view, of.contact); }),
+        [](const auto& view, const auto& of) {
+          return contact_normal_force(view, of.link_element);
+        }),
     signal_entry(
         {K::kContactShapeFriction, Of::kContact, "friction", "N", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return contact_friction(view, of.contact); }),
+        [](const auto& view, const auto& of) { return contact_friction(view, of.link_element); }),
     signal_entry(
         {K::kContactSlipSpeed, Of::kContact, "sliding_speed", "m/s", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return contact_slip_speed(view, of.contact); }),
+        [](const auto& view, const auto& of) { return contact_slip_speed(view, of.link_element); }),
     signal_entry(
         {K::kKineticEnergy, Of::kMechanism, "kinetic_energy", "J", nullptr, Needs::kMotion},
         [](const auto& view, const auto&) { return kinetic_energy(view); }),

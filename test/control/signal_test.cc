@@ -182,7 +182,7 @@ TEST(ResolveSignal, ASpringHasForceLengthAndSpeed) {
   Fixture fixture;
   fixture.robot.spring_dampers.push_back({"strut", 0, 2, {}, {}, 1.0, 1.0, 1.0, {}});
   EXPECT_EQ(fixture.resolve("strut/force").front().kind, SignalKind::kSpringForce);
-  EXPECT_EQ(fixture.resolve("strut/length").front().spring, 0);
+  EXPECT_EQ(fixture.resolve("strut/length").front().link_element, 0);
   EXPECT_EQ(fixture.rate("strut/length").front().kind, SignalKind::kSpringSpeed);
   EXPECT_NE(fixture.refusal("strut/effort").find("force"), std::string::npos);
 }

@@ -73,16 +73,10 @@ WatchedKeys linear_keys(bool of_poles, bool is_bound) {
   return with(with(keys, bound_keys<WatchedSignal>()), WatchedKeys{tolerance_key()});
 }
 
-bool has_filters(const ControllerDescription& controller) {
-  return !controller.filters.empty() ||
-         std::any_of(controller.feedback.begin(), controller.feedback.end(),
-                     [](const FeedbackTerm& term) { return !term.filters.empty(); });
-}
-
 /// How a sampled filter moves with a small motion has no derivatives by the design yet.
 void refuse_sampled_filters(const YamlValue& item, const Study& study) {
   for (const ControllerDescription& controller : study.controllers)
-    if (has_filters(controller) && controller.realization.is_sampled())
+    if (controller.has_filters() && controller.realization.is_sampled())
       item.fail("the sampled controller \"" + controller.name +
                     "\" has filters, and poles and margins of such loops have no derivatives",
                 "controllers whose filters are continuous; codesign linearize shows these numbers");
