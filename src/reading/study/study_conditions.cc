@@ -138,6 +138,19 @@ void read_stuck(const YamlValue& value, const JointDescription& joint, InitialJo
     state->velocity = Quantity(0.0);
 }
 
+/// Reads `current`, of the winding of the joint's motor.
+void read_current(const YamlValue& value, const JointDescription& joint,
+                  const ParameterTable& table, InitialJointState* state) {
+  const auto current = value.find("current");
+  if (!current) return;
+  if (!joint.has_winding() || !joint.actuator->winding->has_state())
+    current->fail(
+        "the motor of the joint has no inductance, so that its current does not start: "
+        "it follows from the voltage",
+        "an inductance in its <codesign:actuator>");
+  state->current = read_quantity(*current, table);
+}
+
 InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
                                    const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
@@ -145,6 +158,7 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
   Names keys = pose ? pose_keys() : scalar ? scalar_keys() : Names();
   const Names& others = pose ? scalar_keys() : pose_keys();
   keys.emplace_back("stuck");
+  if (joint.has_winding()) keys.emplace_back("current");
   if (value.is_map())
     for (const auto& [key, at] : value.entries())
       if (std::find(others.begin(), others.end(), key) != others.end())
@@ -158,6 +172,7 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
   if (pose) read_pose_start(value, joint, table, &state);
   if (scalar) read_scalar_start(value, table, &state);
   read_stuck(value, joint, &state);
+  read_current(value, joint, table, &state);
   return state;
 }
 

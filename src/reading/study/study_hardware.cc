@@ -75,6 +75,12 @@ void read_limits(const YamlValue& value, const ParameterTable& table,
   if (const auto limit = value.find("output_limit"))
     realization->output_limit =
         read_control_bounds(*limit, table, is_sampled || realization->limit_has_corners);
+  if (const auto rate = value.find("rate_limit")) {
+    if (!is_sampled && !realization->time_constant)
+      rate->fail("the output of a continuous controller may jump, and has no rate to limit",
+                 "with sample_time; or with time_constant, the lag whose rate it bounds");
+    realization->rate_limit = read_control_bounds(*rate, table, is_sampled);
+  }
 }
 
 void check_antiwindup(const YamlValue& value, const ControllerDescription& controller) {
@@ -122,7 +128,7 @@ ControlBounds read_control_bounds(const YamlValue& value, const ParameterTable& 
 }
 
 std::vector<std::string> with_realization_keys(ControllerKind kind, std::vector<std::string> own) {
-  own.insert(own.end(), {"output_limit", "sample_time", "delay", "time_constant"});
+  own.insert(own.end(), {"output_limit", "rate_limit", "sample_time", "delay", "time_constant"});
   if (kind->has_error()) own.emplace_back("filter");
   if (kind->is_pid)
     own.insert(own.end(), {"i_clamp", "antiwindup", "tracking_time", "derivative",
