@@ -12,11 +12,11 @@
 namespace codesign {
 namespace {
 
-std::string cart(const std::string& more = "") {
+std::string limited_cart(const std::string& more = "") {
   return robot(more + mass("cart", 2.0) + lift("axis", "cart", 0.0));
 }
 
-std::string study(const std::string& controllers) {
+std::string limited_study(const std::string& controllers) {
   return "duration: 1.0\ngravity: [0, 0, 0]\ncontrollers: {" + controllers +
          "}\nsolver: {method: rodas5p, relative_tolerance: 1.0e-12, absolute_tolerance: 1.0e-13}\n";
 }
@@ -28,7 +28,7 @@ TEST(RateLimit, OfSamplesIsACorner) {
   for (const std::string& delay : {std::string("}"), std::string(", delay: 0.025}")}) {
     const double late = delay.size() > 1 ? 0.025 : 0.0;
     const auto effort = [&](double t) {
-      return end_of(cart(), study(step + delay), t + late, {"axis/effort"})[0];
+      return end_of(limited_cart(), limited_study(step + delay), t + late, {"axis/effort"})[0];
     };
     EXPECT_NEAR(effort(0.005), 3.0, 1e-14) << "the first sample is free";
     EXPECT_NEAR(effort(0.055), 3.5, 1e-12) << "50 * 0.01 from sample to sample";
@@ -42,9 +42,9 @@ TEST(RateLimit, OfSamplesIsACorner) {
 // From scipy.integrate.solve_ivp (DOP853, rtol 1e-13, atol 1e-14) of f' = S((u - f)/0.1).
 TEST(RateLimit, OfALagIsSmooth) {
   const auto effort = [](const std::string& u, double t) {
-    return end_of(cart(),
-                  study("command: {type: state_feedback, output: axis, feedforward: " + u +
-                        ", time_constant: 0.1, rate_limit: [-20, 50]}"),
+    return end_of(limited_cart(),
+                  limited_study("command: {type: state_feedback, output: axis, feedforward: " + u +
+                                ", time_constant: 0.1, rate_limit: [-20, 50]}"),
                   t, {"axis/effort"})[0];
   };
   EXPECT_NEAR(effort("10.0", 0.25), 8.852427811764, 1e-9);
@@ -55,7 +55,7 @@ TEST(RateLimit, ItsNumbersHaveExactGradients) {
   for (const char* run : {"sample_time: 0.01", "time_constant: 0.1"})
     for (const char* gradient : {"direct", "adjoint"}) {
       const Problem problem = load_problem(
-          {"cart.urdf", cart("<codesign:parameter name='up' value='15'/>")}, {},
+          {"cart.urdf", limited_cart("<codesign:parameter name='up' value='15'/>")}, {},
           {"cart.yaml",
            "duration: 2.0\ngravity: [0, 0, 0]\ncontrollers: {servo: {type: pid, input: "
            "axis/position, setpoint: {type: sine, amplitude: 0.3, frequency: 0.5}, output: axis, "
@@ -76,7 +76,8 @@ TEST(RateLimit, ItsNumbersHaveExactGradients) {
 
 TEST(RateLimit, NeedsSamplesOrALag) {
   try {
-    compile(cart(), study("command: {type: pid, input: axis/position, setpoint: 1.0, output: axis, "
+    compile(limited_cart(),
+            limited_study("command: {type: pid, input: axis/position, setpoint: 1.0, output: axis, "
                           "gains: {p: 1.0}, rate_limit: 5}"));
     FAIL();
   } catch (const InputError& error) {

@@ -10,7 +10,7 @@ namespace codesign {
 namespace {
 
 /// @param more attributes of the actuator. @param inductive whether there is an inductance.
-std::string urdf(const std::string& more, bool inductive) {
+std::string wound_urdf(const std::string& more, bool inductive) {
   return robot(
       std::string("<codesign:parameter name='R' value='0.5'/><codesign:parameter name='L' "
                   "value='0.01'/><codesign:parameter name='K' value='0.04'/><codesign:parameter "
@@ -24,8 +24,8 @@ std::string urdf(const std::string& more, bool inductive) {
                 (inductive ? "inductance='0.01' codesign:inductance='${L}' " : "") + more + "/>"));
 }
 
-GradientCheck check(const std::string& model, bool inductive, const std::string& solver,
-                    CheckMethod method) {
+GradientCheck check_wound(const std::string& model, bool inductive, const std::string& solver,
+                          CheckMethod method) {
   const std::string start = inductive ? ", current: \"${first}\"" : "";
   const Problem problem = load_problem(
       {"test.urdf", model}, {},
@@ -49,7 +49,7 @@ TEST(WindingGradients, AreThoseOfTheStepsTaken) {
       for (const char* solver :
            {"coordinates: joint", "coordinates: absolute, gradient: adjoint"}) {
         const GradientCheck exact =
-            check(urdf(gear, inductive), inductive, solver, CheckMethod::kComplexStep);
+            check_wound(wound_urdf(gear, inductive), inductive, solver, CheckMethod::kComplexStep);
         ASSERT_TRUE(exact.status.ok()) << gear << solver << exact.status.cause;
         EXPECT_LT(exact.largest_relative_difference, 1e-8) << gear << inductive << solver;
         EXPECT_GT(exact.evaluation.gradient.cwiseAbs().minCoeff(), 1e-9) << "every number counts";
@@ -58,9 +58,9 @@ TEST(WindingGradients, AreThoseOfTheStepsTaken) {
 
 TEST(WindingGradients, AreThoseOfIndependentRuns) {
   for (const bool inductive : {true, false}) {
-    const GradientCheck independent =
-        check(urdf("efficiency='0.8'", inductive), inductive,
-              "relative_tolerance: 1.0e-13, absolute_tolerance: 1.0e-14", CheckMethod::kRidders);
+    const GradientCheck independent = check_wound(
+        wound_urdf("efficiency='0.8'", inductive), inductive,
+        "relative_tolerance: 1.0e-13, absolute_tolerance: 1.0e-14", CheckMethod::kRidders);
     ASSERT_TRUE(independent.status.ok()) << independent.status.cause;
     EXPECT_LT(independent.largest_relative_difference, 1e-7) << inductive;
   }
@@ -68,11 +68,12 @@ TEST(WindingGradients, AreThoseOfIndependentRuns) {
 
 TEST(WindingGradients, BothIntegratorsAgree) {
   const auto gradient = [](const char* integrator) {
-    return check(urdf("", true), true,
-                 std::string("integrator: ") + integrator +
-                     ", coordinates: absolute, relative_tolerance: 1.0e-9, absolute_tolerance: "
-                     "1.0e-10",
-                 CheckMethod::kComplexStep)
+    return check_wound(
+               wound_urdf("", true), true,
+               std::string("integrator: ") + integrator +
+                   ", coordinates: absolute, relative_tolerance: 1.0e-9, absolute_tolerance: "
+                   "1.0e-10",
+               CheckMethod::kComplexStep)
         .evaluation.gradient;
   };
   const Eigen::VectorXd one = gradient("rosenbrock"), other = gradient("idas");
