@@ -45,7 +45,8 @@ def friction(job):
     return rows, bar_chart("Energy that friction puts into the mechanism, by joint, before and after", names, [row[1:] for row in rows], "J")
 
 
-ENERGIES = (("friction", "friction, all joints"), ("damping", "damping"), ("actuator", "controllers"), ("load", "constant loads"))
+ENERGIES = (("friction", "friction, all joints"), ("damping", "damping"), ("actuator", "controllers"), ("load", "constant loads"),
+            ("electrical", "supply of the motors"), ("copper_loss", "heat of the windings"))
 
 
 def energies(job):

@@ -26,7 +26,7 @@ def group_of(name, asked_for, used):
         return 4
     if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss", "gear_deflection"):
         return 2
-    if name in used or quantity in ("error", "output", "effort", "integral"):
+    if name in used or quantity in ("error", "output", "effort", "integral", "current", "voltage"):
         return 1
     return 3 if quantity in ("position", "velocity", "acceleration") else 5
 

@@ -233,6 +233,10 @@ void set_extra_states(const System& system, const std::vector<T>& parameters, Ve
   s->setZero(system.layout().states);
   const std::vector<Quantity>& given = system.study().initial_extra_states;
   for (std::size_t k = 0; k < given.size(); ++k) (*s)[to_signed(k)] = given[k].at(parameters);
+  for (const Winding& winding : system.windings())
+    if (winding.start >= 0)
+      (*s)[winding.state] =
+          system.study().initial_state[to_index(winding.start)].current->at(parameters);
   for (const StuckContact& stuck : system.stuck())
     if (const BristleContact& contact = system.bristles()[stuck.bristle]; contact.dwells())
       (*s)[contact.dwell_state()] = T(1.0);

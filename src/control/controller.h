@@ -26,7 +26,7 @@ struct ControllerConstants {
   std::vector<Reference<T>> references;  ///< kStateFeedback: one per term
   ShapedInput<T> shape;                  ///< kBasis
   /// Numbers of ControlRealization; zero if absent.
-  Bounds<T> i_clamp, output_limit;
+  Bounds<T> i_clamp, output_limit, rate_limit;
   T derivative_filter{0.0}, time_constant{0.0};
   T tracking{0.0};  ///< AntiWindup::kBackCalculation: tracking time times gain i, by default p
   /// As Controller::filters: the sections of each of its inputs.
@@ -79,6 +79,7 @@ void controller_constants(const ControllerDescription& description,
   if (realization.derivative_filter)
     c.derivative_filter = realization.derivative_filter->at(parameters);
   if (realization.output_limit) c.output_limit = bounds_at(*realization.output_limit, parameters);
+  if (realization.rate_limit) c.rate_limit = bounds_at(*realization.rate_limit, parameters);
   if (realization.time_constant) c.time_constant = realization.time_constant->at(parameters);
   c.tracking = tracking_at(description, parameters);
   c.filters.resize(filtered_inputs(description));
@@ -116,6 +117,7 @@ struct ControllerStates {
   int filter = -1;  ///< the filtered error; for a sampled controller the filtered rate of the error
   int last = -1;    ///< sampled: the error at the last sample
   int held = -1;    ///< sampled: the output in effect
+  int computed = -1;  ///< sampled with a rate_limit: the output of the last sample
   /// sampled: the first of the waiting outputs, whose number is ControlRealization::queued()
   int queue = -1;
   int lag = -1;  ///< the effort after the lag of the drive

@@ -46,6 +46,9 @@ struct ControlRealization {
   std::optional<ControlBounds> output_limit;  ///< [unit of the output]
   /// output_limit has corners, as in samples, also where the controller is continuous, theory (50)
   bool limit_has_corners = false;
+  /// of the output [its unit per s], > 0 upwards: from sample to sample, or of a continuous
+  /// controller of the effort after the lag of the drive
+  std::optional<ControlBounds> rate_limit;
   std::optional<Quantity> time_constant;  ///< of the drive, from the output to the effort [s]
   double sample_time = 0.0;               ///< [s]; 0: the controller is continuous
   /// from a sample to the output that follows from it [s]; sampled controllers only

@@ -41,7 +41,8 @@ struct InitialJointState {
   std::optional<QuantityVector> rotation;
   std::optional<QuantityVector> linear_velocity;   ///< of the child's frame [m/s]
   std::optional<QuantityVector> angular_velocity;  ///< of the child [rad/s]
-  bool stuck = false;  ///< at rest, held by the bristles of its friction, theory (13h)
+  bool stuck = false;               ///< at rest, held by the bristles of its friction, theory (13h)
+  std::optional<Quantity> current;  ///< of its motor's winding [A]
   SourceLocation where;
 };
 
@@ -61,8 +62,11 @@ struct ControllerDescription {
   ReferenceDescription setpoint;  ///< only if kind->has_error()
   /// only if kind->has_error(): of the input, in the order in which it passes them
   std::vector<FilterDescription> filters;
-  /// the joint it drives, by a torque [N m] or a force [N]; empty: only other controllers read it
+  /// the joint it drives, by a torque [N m], a force [N], or the voltage of its motor [V]; empty:
+  /// only other controllers read it
   std::string output;
+  /// its output is an effort, even where a joint has a winding and others are voltages
+  bool gives_effort = false;
   Quantity p, i, d;                    ///< gains; only those that kind->gains names
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback

@@ -147,6 +147,15 @@ struct ElasticGearDescription {
   std::optional<Quantity> backlash;  ///< b [rad or m], the whole play; none: no play
 };
 
+/// The circuit of an actuator's DC motor, theory (9d).
+struct WindingDescription {
+  Quantity resistance, inductance;      ///< R > 0 [ohm], L [H]; L = 0: the current has no state
+  Quantity torque_constant;             ///< K > 0 [N m/A], also that of the voltage, [V s/rad]
+  std::optional<Quantity> bus_voltage;  ///< [V] bounds the voltage; none: no bound
+
+  bool has_state() const { return !inductance.is_zero(); }
+};
+
 /// `<codesign:actuator>`: a motor whose rotor turns `gear_ratio` times as fast as the joint; theory
 /// (9a). The rotor is carried by the parent link and turns about the joint's axis.
 struct ActuatorDescription {
@@ -155,6 +164,7 @@ struct ActuatorDescription {
   Quantity rotor_inertia;
   std::optional<GearDescription> gear;
   std::optional<ElasticGearDescription> elastic;  ///< none: the gear is rigid
+  std::optional<WindingDescription> winding;      ///< none: its torque is the controllers' output
   SourceLocation where;
 };
 
@@ -177,6 +187,9 @@ struct JointDescription {
   Quantity distance;   ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
   Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
+  /// inertia of the coordinate alone [kg m^2 or kg], theory (9e), of the motor's side of an elastic
+  /// gear; of `<codesign:actuator>`, or of `<dynamics>` without one
+  Quantity armature;
   /// of dry_friction [rad/s or m/s]: no file gives it; theory (13)
   double dry_transition_velocity = 1e-2;
   std::optional<LimitDescription> limit;
@@ -208,6 +221,8 @@ struct JointDescription {
   bool is_fixed() const { return type == JointType::kFixed; }
 
   bool has_elastic_gear() const { return actuator && actuator->elastic; }
+  /// Whether a voltage moves it.
+  bool has_winding() const { return actuator && actuator->winding; }
   /// Whether the torque that the actuator's gear transmits is known: a loss in proportion to it
   /// needs it, (9b), and a spring determines it, (9c).
   bool has_gear_torque() const {

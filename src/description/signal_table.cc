@@ -20,6 +20,7 @@ const SignalFacts* find_facts(Condition&& condition) {
 
 bool has_coordinate(const JointDescription& joint) { return joint.has_one_coordinate(); }
 bool has_actuator(const JointDescription& joint) { return joint.actuator.has_value(); }
+bool has_winding(const JointDescription& joint) { return joint.has_winding(); }
 bool has_elastic_gear(const JointDescription& joint) { return joint.has_elastic_gear(); }
 bool has_gear_loss(const JointDescription& joint) { return joint.actuator && joint.actuator->gear; }
 bool has_gear_torque(const JointDescription& joint) { return joint.has_gear_torque(); }

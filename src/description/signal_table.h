@@ -7,126 +7,12 @@
 #include <tuple>
 #include <utility>
 
+#include "description/signal_kind.h"
 #include "math/arrays.h"
 
 namespace codesign {
 
 struct JointDescription;
-
-/// The quantities that one term of a signal reads; doc/study/signals.md describes them.
-enum class SignalKind {
-  kJointPosition,
-  kJointVelocity,
-  kJointAcceleration,
-  kJointEffort,
-  kJointEffortRate,  ///< theory (54)
-  kActuatorPower,    ///< of a joint; theory (14c)
-  kDampingPower,
-  kLoadPower,
-  kMotorTorque,  ///< of the actuator of a joint: effort / gear ratio
-  kMotorSpeed,   ///< gear ratio times the velocity of the motor's side
-  kMotorPosition,
-  kGearDeflection,  ///< motor's side less joint's side of an elastic gear; theory (9c)
-  kJointFriction,
-  kJointNormalForce,
-  kJointSlidingVelocity,
-  kFrictionPower,
-  kGearLoss,    ///< what gear and motor lose, on the child
-  kGearTorque,  ///< torque that the gear of a joint transmits; theory (9b)
-  /// on the child of a joint, in the axes of the joint frame that the child carries; theory (11a)
-  kReactionForce,
-  kReactionTorque,  ///< likewise, about the origin of that frame
-  kControllerError,
-  kControllerSetpoint,
-  kControllerIntegral,
-  kControllerOutput,
-  kLinkPosition,
-  kLinkVelocity,
-  kLinkAcceleration,
-  kLinkAngularVelocity,
-  kLinkAngularAcceleration,
-  /// component w, x, y or z of the quaternion in the root link's frame; axis 0 is w
-  kLinkOrientation,
-  kImuAcceleration,     ///< proper acceleration of a link's origin, in its own axes; theory (11c)
-  kImuAngularVelocity,  ///< of a link, in its own axes
-  kSpringForce,         ///< tension of a spring-damper; theory (13b)
-  kSpringLength,
-  kSpringSpeed,  ///< rate of its length
-  kContactGap,   ///< of the nearest point of two shapes, negative by the penetration; theory (13k)
-  kContactGapRate,
-  kContactNormalForce,    ///< of all points together; theory (13l)
-  kContactShapeFriction,  ///< magnitude of the sum; theory (13m)
-  kContactSlipSpeed,      ///< of the nearest point
-  kKineticEnergy,         ///< of the whole mechanism; theory (14b)
-  kPotentialEnergy,
-  kTotalEnergy,
-  kTotalFrictionPower,  ///< of the whole mechanism; theory (14c)
-  kTotalDampingPower,
-  kTotalActuatorPower,
-  kTotalLoadPower,
-  kShakingForce,   ///< what the motion of all bodies exerts on the ground; theory (11b)
-  kShakingMoment,  ///< likewise, about the ground's origin or that of the link in whose axes it is
-  // What no file names: derivatives, and what stands for a quantity of special joints.
-  kMotorAcceleration,
-  kGearDeflectionRate,
-  kElasticTorque,    ///< torque of an elastic gear, which depends on the motion alone
-  kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)
-  kContactSpeed,     ///< speed of slip of such a pair
-  kImuAngularAcceleration,
-  kControllerErrorRate,
-  kControllerSetpointRate,
-  kNone  ///< no quantity
-};
-
-/// The kinds of power that go into a mechanism, doc/theory.md (14c); their sum is the rate of the
-/// mechanical energy. Gravity, springs and the elastic part of stops are not among them, since
-/// their work is in the potential energy.
-enum class PowerKind {
-  kFriction,  ///< `<codesign:friction>` with its viscous part, `<dynamics friction>`, and gears
-  /// `<dynamics damping>`, the dampers of torsion springs, spring-dampers and elastic gears, and
-  /// the dissipation of stops
-  kDamping,
-  kActuator,  ///< controllers, as applied within the effort limits, and drives
-  kLoad       ///< the study's efforts and wrenches
-};
-
-/// What has a quantity.
-enum class SignalOwner { kJoint, kController, kLink, kSpring, kContact, kMechanism };
-
-/// On what a quantity depends, besides time and parameters.
-enum class SignalNeeds {
-  kMotion,     ///< on positions and velocities alone, so that loads may depend on it
-  kControl,    ///< on controllers that are defined before the reader
-  kForces,     ///< on accelerations or loads, too
-  kReactions,  ///< on the wrenches that joints transmit, too
-  kEfforts     ///< on the outputs of all controllers, so that no controller reads it
-};
-
-/// The components of a quantity: none, x y z, or w x y z.
-enum class SignalShape { kScalar, kVector, kQuaternion };
-
-/// The axes of a vector unless a term names a link, `NAME/QUANTITY/x@LINK`.
-enum class SignalAxes {
-  kNone,        ///< no vector, or one that is told in the root's axes only
-  kRootLink,    ///< of the root link
-  kChildFrame,  ///< of the joint frame that the child of a joint carries
-  kOwnLink      ///< of the link that has the quantity
-};
-
-/// What there is to know of a quantity besides its value.
-struct SignalFacts {
-  SignalKind kind;
-  SignalOwner owner;
-  const char* quantity;  ///< as files spell it; empty if they do not
-  /// q and Q stand for the units of position and effort of the joint, or of the joint that a
-  /// controller drives; e for that of a controller's input
-  const char* unit;
-  bool (*is_of)(const JointDescription&);  ///< whether a joint has it; null: every owner has it
-  SignalNeeds needs;
-  SignalKind rate = SignalKind::kNone;  ///< its time derivative
-  SignalShape shape = SignalShape::kScalar;
-  SignalAxes axes = SignalAxes::kNone;
-};
 
 /// A quantity with its value, a function of a StateView and a SignalReference, in SI units. The
 /// functions that a value calls are found where it is used, in elements/.
@@ -143,6 +29,7 @@ constexpr SignalEntry<Value> signal_entry(const SignalFacts& facts, Value value)
 // Which joints have a quantity.
 bool has_coordinate(const JointDescription& joint);
 bool has_actuator(const JointDescription& joint);
+bool has_winding(const JointDescription& joint);
 bool has_elastic_gear(const JointDescription& joint);
 /// Whether a joint or loop has friction, from `<codesign:friction>`, `<dynamics friction>` or the
 /// losses of its actuator.
@@ -208,6 +95,31 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry({K::kMotorPosition, Of::kJoint, "motor_position", "rad", has_actuator,
                   Needs::kMotion, K::kMotorSpeed},
                  [](const auto& view, const auto& of) { return motor_position(view, of); }),
+    signal_entry({K::kCurrent, Of::kJoint, "current", "A", has_winding, Needs::kEfforts},
+                 [](const auto& view, const auto& of) {
+                   return of_motor(view, of, [](const auto& in, const auto& winding) {
+                     return effective_current(in, winding);
+                   });
+                 }),
+    signal_entry({K::kVoltage, Of::kJoint, "voltage", "V", has_winding, Needs::kEfforts},
+                 [](const auto& view, const auto& of) {
+                   return of_motor(view, of, [](const auto& in, const auto& winding) {
+                     return terminal_voltage(in, winding);
+                   });
+                 }),
+    signal_entry(
+        {K::kElectricalPower, Of::kJoint, "electrical_power", "W", has_winding, Needs::kEfforts},
+        [](const auto& view, const auto& of) {
+          return of_motor(view, of, [](const auto& in, const auto& winding) {
+            return electrical_power(in, winding);
+          });
+        }),
+    signal_entry({K::kCopperLoss, Of::kJoint, "copper_loss", "W", has_winding, Needs::kEfforts},
+                 [](const auto& view, const auto& of) {
+                   return of_motor(view, of, [](const auto& in, const auto& winding) {
+                     return copper_loss(in, winding);
+                   });
+                 }),
     signal_entry({K::kGearDeflection, Of::kJoint, "gear_deflection", "q", has_elastic_gear,
                   Needs::kMotion, K::kGearDeflectionRate},
                  [](const auto& view, const auto& of) { return gear_deflection_of(view, of); }),
@@ -243,6 +155,15 @@ inline constexpr auto kRows = std::make_tuple(
         {K::kControllerSetpoint, Of::kController, "setpoint", "e", nullptr, Needs::kMotion,
          K::kControllerSetpointRate},
         [](const auto& view, const auto& of) { return controller_setpoint(view, of).value; }),
+    signal_entry(
+        {K::kControllerSetpointRate, Of::kController, "setpoint_rate", "e/s", nullptr,
+         Needs::kMotion, K::kControllerSetpointAcceleration},
+        [](const auto& view, const auto& of) { return controller_setpoint(view, of).rate; }),
+    signal_entry({K::kControllerSetpointAcceleration, Of::kController, "setpoint_acceleration",
+                  "e/s²", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return controller_setpoint(view, of).acceleration;
+                 }),
     signal_entry({K::kControllerIntegral, Of::kController, "integral", "e s", nullptr,
                   Needs::kControl, K::kControllerError},
                  [](const auto& view, const auto& of) { return controller_integral(view, of); }),
@@ -326,6 +247,26 @@ inline constexpr auto kRows = std::make_tuple(
         [](const auto& view, const auto&) { return total_power(view, PowerKind::kActuator); }),
     signal_entry({K::kTotalLoadPower, Of::kMechanism, "load_power", "W", nullptr, Needs::kForces},
                  [](const auto& view, const auto&) { return total_power(view, PowerKind::kLoad); }),
+    signal_entry({K::kTotalElectricalPower, Of::kMechanism, "electrical_power", "W", nullptr,
+                  Needs::kEfforts},
+                 [](const auto& view, const auto&) {
+                   return sum_of_windings(view, [](const auto& in, const auto& winding) {
+                     return electrical_power(in, winding);
+                   });
+                 }),
+    signal_entry(
+        {K::kTotalCopperLoss, Of::kMechanism, "copper_loss", "W", nullptr, Needs::kEfforts},
+        [](const auto& view, const auto&) {
+          return sum_of_windings(
+              view, [](const auto& in, const auto& winding) { return copper_loss(in, winding); });
+        }),
+    signal_entry(
+        {K::kMagneticEnergy, Of::kMechanism, "magnetic_energy", "J", nullptr, Needs::kEfforts},
+        [](const auto& view, const auto&) {
+          return sum_of_windings(view, [](const auto& in, const auto& winding) {
+            return magnetic_energy(in, winding);
+          });
+        }),
     signal_entry({K::kShakingForce, Of::kMechanism, "shaking_force", "N", nullptr, Needs::kForces,
                   K::kNone, Shape::kVector, Axes::kRootLink},
                  [](const auto& view, const auto& of) { return shaking_force(view, of); }),
@@ -354,10 +295,7 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry({K::kControllerErrorRate, Of::kController, "", "", nullptr, Needs::kForces},
                  [](const auto& view, const auto& of) {
                    return controller_error_rate(view, of.controller);
-                 }),
-    signal_entry(
-        {K::kControllerSetpointRate, Of::kController, "", "", nullptr, Needs::kForces},
-        [](const auto& view, const auto& of) { return controller_setpoint(view, of).rate; }));
+                 }));
 
 constexpr std::size_t kCount = std::tuple_size_v<decltype(kRows)>;
 

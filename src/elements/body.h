@@ -59,7 +59,7 @@ void norm_error(const StateView<T>& view, int b, VectorX<T>* Phi, VectorX<T>* Ph
 
 // Rotors of actuators, theory (9a): the inertia forces of their spin, which is not part of the
 // inertia of the bodies that carry them. The carrier is the body that carries the rotor; on the
-// ground it contributes nothing.
+// ground it contributes nothing. An armature, (9e), is a rotor of n = 1 without a carrier.
 
 /// The rotor's constants and the motion of its carrier about the rotor's axis u; theory (9a).
 template <class T>
@@ -76,6 +76,11 @@ RotorMotion<T> rotor_motion(const StateView<T>& view, const Rotor& rotor) {
   const JointDynamicsConstants<T>& d = view.dynamics(rotor.pair, rotor.element);
   const BodyKinematics<T>& carrier = view.body(rotor.body);
   RotorMotion<T> m;
+  if (rotor.is_armature) {
+    m.axis.setZero();
+    m.coupling = d.armature;
+    return m;
+  }
   m.axis = d.rotor_axis;
   m.ratio = d.gear_ratio;
   m.coupling = d.gear_ratio * d.rotor_inertia;

@@ -191,12 +191,16 @@ T integral_rate(const StateView<T>& view, int controller) {
   return error;
 }
 
-/// f' = (u - f) / tau of the effort after the drive's lag, (53).
+/// f' = (u - f) / tau of the effort after the drive's lag, (53), of a continuous controller within
+/// its rate_limit, (53a).
 template <class T>
 T lag_rate(const StateView<T>& view, int controller) {
   const int f = view.controller(controller).states.lag;
   const T per_tau = T(1.0) / view.controller_numbers(controller).time_constant;
-  return per_tau * (controller_output(view, controller) - view.state->s[f]);
+  const T rate = per_tau * (controller_output(view, controller) - view.state->s[f]);
+  const ControlRealization& realization = realization_of(view, controller);
+  if (!realization.rate_limit || realization.is_sampled()) return rate;
+  return saturate(rate, view.controller_numbers(controller).rate_limit).value;
 }
 
 /// Sets the rows of a controller's states to sigma - s'; nothing for controllers without a state.
@@ -216,6 +220,7 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
     set(states.filter, realization.is_sampled() ? T(0.0) : filtered_error_rate(view, controller));
   if (states.last >= 0) set(states.last, T(0.0));
   if (states.held >= 0) set(states.held, T(0.0));
+  if (states.computed >= 0) set(states.computed, T(0.0));
   for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, T(0.0));
   if (states.lag >= 0) set(states.lag, lag_rate(view, controller));
 }

@@ -80,9 +80,23 @@ T drive_effort_rate(const StateView<T>& view, int controller) {
   return limited_output(view, controller).slope * rate;
 }
 
-/// The rate of applied_effort() [N m/s or N/s].
+/// The rate of winding_effort(), n K i'.
 template <class T>
-T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
+T winding_effort_rate(const StateView<T>& view, const Winding& winding) {
+  const T nK = effort_per_current(view, winding);
+  if (winding.state >= 0) return nK * winding_current_rate(view, winding);
+  const WindingConstants<T>& c = winding_numbers(view, winding);
+  T rate(0.0);
+  for (int controller : winding.controllers) rate += drive_effort_rate(view, controller);
+  const T acceleration =
+      view.dynamics(winding.pair, winding.element).gear_ratio *
+      view.coordinate(winding.pair, winding.element, CoordinateDetail::kAcceleration).acceleration;
+  return nK * c.steady_current(T(winding_voltage(view, winding).slope * rate), acceleration);
+}
+
+/// The rate of controller_effort().
+template <class T>
+T controller_effort_rate(const StateView<T>& view, const JointLoad& load) {
   T rate(0.0), demand(0.0);
   const auto* effort = load.find<ControllerEffort>();
   if (!effort) return rate;
@@ -91,6 +105,15 @@ T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
   for (int controller : effort->controllers) demand += drive_effort(view, controller);
   const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).slope * rate;
+}
+
+/// The rate of applied_effort() [N m/s or N/s].
+template <class T>
+T applied_effort_rate(const StateView<T>& view, const JointLoad& load) {
+  const T rate = controller_effort_rate(view, load);
+  const auto* torque = load.find<WindingTorque>();
+  if (!torque) return rate;
+  return rate + winding_effort_rate(view, view.system.windings()[to_index(torque->winding)]);
 }
 
 }  // namespace codesign

@@ -10,6 +10,7 @@
 #include "elements/loads.h"
 #include "elements/normal_force.h"
 #include "elements/state_view.h"
+#include "elements/winding.h"
 #include "forces/compliance.h"
 #include "forces/control_law.h"
 #include "forces/friction_curves.h"
@@ -102,10 +103,17 @@ T stop_dissipation(const StateView<T>& view, const JointLoad& load, const T& rat
   return stop_load(view, load, rate, stop_of(view, load).dissipation) - elastic;
 }
 
-/// The sum of the controllers' outputs on a coordinate, bounded by the actuator's limit (13c) if
-/// the study enforces `<limit effort>`.
+/// n K i, theory (9d) [N m or N].
 template <class T>
-T applied_effort(const StateView<T>& view, const JointLoad& load) {
+T winding_effort(const StateView<T>& view, const WindingTorque& torque) {
+  const Winding& winding = view.system.windings()[to_index(torque.winding)];
+  return effort_per_current(view, winding) * winding_current(view, winding);
+}
+
+/// The sum of the controllers' outputs on a coordinate that are efforts, bounded by the actuator's
+/// limit (13c) if the study enforces `<limit effort>`.
+template <class T>
+T controller_effort(const StateView<T>& view, const JointLoad& load) {
   T demand(0.0);
   const auto* effort = load.find<ControllerEffort>();
   if (!effort) return demand;
@@ -113,6 +121,14 @@ T applied_effort(const StateView<T>& view, const JointLoad& load) {
   if (!effort->saturated) return demand;
   const T& limit = view.dynamics(load.pair, load.element).effort;
   return saturate(demand, limit).value;
+}
+
+/// What controllers and motor apply to a coordinate.
+template <class T>
+T applied_effort(const StateView<T>& view, const JointLoad& load) {
+  const T effort = controller_effort(view, load);
+  const auto* torque = load.find<WindingTorque>();
+  return torque ? T(effort + winding_effort(view, *torque)) : effort;
 }
 
 template <class T>
@@ -169,7 +185,12 @@ T part_load(const StateView<T>& view, const JointLoad& load, const GearLoss&, co
 
 template <class T>
 T part_load(const StateView<T>& view, const JointLoad& load, const ControllerEffort&, const T&) {
-  return -applied_effort(view, load);
+  return -controller_effort(view, load);
+}
+
+template <class T>
+T part_load(const StateView<T>& view, const JointLoad&, const WindingTorque& torque, const T&) {
+  return -winding_effort(view, torque);
 }
 
 // powered_load(): what of it has the kind of power that it is counted with; forces of springs have

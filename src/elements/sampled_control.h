@@ -91,6 +91,23 @@ T sampled_pid_output(const StateView<T>& view, int controller, bool is_first, Ve
   return output;
 }
 
+/// u_k of a sample, u_(k-1) + T times rate_limit at most, theory (53a); updates its memory. The
+/// first sample has none before it.
+template <class T>
+T within_rate(const StateView<T>& view, int controller, bool is_first, const T& output,
+              VectorX<T>* s) {
+  const int computed = view.controller(controller).states.computed;
+  if (computed < 0) return output;
+  const Bounds<T>& rate = view.controller_numbers(controller).rate_limit;
+  const T period(realization_of(view, controller).sample_time);
+  T next = output;
+  if (!is_first)
+    next = (*s)[computed] + clamp(T(output - (*s)[computed]),
+                                  {period * rate.lower, period * rate.upper, rate.is_symmetric});
+  (*s)[computed] = next;
+  return next;
+}
+
 /// The output of a controller at a sample, within its limit; updates its memory in `s`. At the
 /// start of a continuous controller, `is_first`, its filters are set at rest; 0.
 /// @param s of the loaded state itself.
@@ -106,9 +123,11 @@ T sample_controller(const StateView<T>& view, int controller, bool is_first, Vec
                        ? sampled_pid_output(view, controller, is_first, s)
                        : law_output(view, controller);
   advance_filters(view, controller, s);
-  return realization_of(view, controller).output_limit
-             ? clamp(output, view.controller_numbers(controller).output_limit)
-             : output;
+  return within_rate(view, controller, is_first,
+                     realization_of(view, controller).output_limit
+                         ? clamp(output, view.controller_numbers(controller).output_limit)
+                         : output,
+                     s);
 }
 
 /// The extra state that an event writes an output to (kSample) or reads one from (kApply): the

@@ -8,6 +8,7 @@
 #include "elements/effort_rate.h"
 #include "elements/energy.h"
 #include "elements/forest.h"
+#include "elements/motor_signals.h"
 #include "elements/reaction.h"
 #include "elements/shaking.h"
 #include "elements/state_view.h"

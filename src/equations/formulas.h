@@ -94,6 +94,8 @@ class Formulas {
   /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or
   /// N m].
   T effort(int pair, int element) const;
+  /// The current at which that of a winding stays, theory (9d) [A].
+  T steady_current(const Winding& winding) const;
   /// Mechanical energy T and V [J]; theory (14b).
   T kinetic_energy() const;
   T potential_energy() const;

@@ -44,6 +44,7 @@ void Formulas<T>::residual(const State<T>& state, VectorX<T>* G, T* g) {
   load_coordinates(view, &workspace, G);
   for (const BristleContact& contact : system.bristles()) bristle_residual(view, contact, G);
   for (std::size_t c = 0; c < system.controllers().size(); ++c) controller_residual(view, c, G);
+  for (const Winding& winding : system.windings()) winding_residual(view, winding, G);
   if (system.sharing().drops()) sharing_residual(view, &workspace, G);
   *g = objective_terms(view, system.integral(), view.design.integral);
 }
@@ -192,6 +193,11 @@ SpringForce<T> Formulas<T>::spring(std::size_t k) const {
 template <class T>
 T Formulas<T>::effort(int pair, int element) const {
   return joint_effort(view_, pair, element);
+}
+
+template <class T>
+T Formulas<T>::steady_current(const Winding& winding) const {
+  return codesign::steady_current(view_, winding);
 }
 
 template <class T>

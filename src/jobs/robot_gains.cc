@@ -6,6 +6,7 @@
 #include "control/controller.h"
 #include "description/study.h"
 #include "jobs/json.h"
+#include "math/arrays.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
 
@@ -79,6 +80,7 @@ std::vector<std::string> missing_of(const ControllerDescription& controller) {
   } all[] = {
       {!controller.filters.empty(), "filter"},
       {realization.output_limit.has_value(), "output_limit"},
+      {realization.rate_limit.has_value(), "rate_limit"},
       {realization.antiwindup == AntiWindup::kBackCalculation, "antiwindup: back_calculation"},
       {realization.antiwindup == AntiWindup::kConditional, "antiwindup: conditional"},
       {realization.derivative_filter.has_value(), "derivative_filter"},
@@ -105,6 +107,9 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
     found.controller = controller.name;
     found.joint = controller.output;
     found.loses_weight = controller.kind->load == ControlLoad::kAtRest;
+    const RobotDescription& robot = robot_of(problem);
+    const int joint = joint_named(robot, controller.output);
+    found.gives_voltage = joint >= 0 && robot.joints[to_index(joint)].has_winding();
     found.p = controller.p.at(parameters);
     found.i = controller.i.at(parameters);
     found.d = controller.d.at(parameters);
@@ -114,6 +119,10 @@ std::vector<RobotGains> robot_gains(const Problem& problem, const std::vector<do
       found.i_clamp_max = bounds.upper;
     }
     found.missing = missing_of(controller);
+    for (const ControllerDescription& beside : study.controllers)
+      if (beside.name != controller.name && !beside.output.empty() &&
+          beside.output == controller.output)
+        found.missing.push_back("the output of " + in_comment(beside.name) + " beside it");
     found.antiwindup = gains.antiwindup;
     all.push_back(std::move(found));
   }
@@ -131,6 +140,7 @@ std::string gains_yaml(const Problem& problem, const std::vector<double>& parame
   for (const RobotGains& gains : all) {
     text += "# " + gains.name_space + ": " + in_comment(gains.controller) +
             " of the study, which drives " + in_comment(gains.joint);
+    if (gains.gives_voltage) text += "; its output is the voltage of the motor [V], no effort";
     if (gains.loses_weight)
       text += "; in the study it also carries the weight, which is not among these gains";
     for (std::size_t k = 0; k < gains.missing.size(); ++k)

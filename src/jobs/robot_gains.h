@@ -16,6 +16,7 @@ struct RobotGains {
   std::string joint;       ///< the joint that the controller drives
   /// whether the controller also compensates gravity in the study, which these gains do not
   bool loses_weight = false;
+  bool gives_voltage = false;  ///< the output is the voltage of the joint's motor, no effort
   double p = 0.0, i = 0.0, d = 0.0;
   /// bounds of the effort of the integral term [N m or N], lower <= 0 <= upper
   double i_clamp_min = 0.0, i_clamp_max = 0.0;

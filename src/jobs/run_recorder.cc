@@ -94,7 +94,7 @@ void add_energies(const std::vector<ShownSignal>& shown, const std::vector<Watch
     const SignalTerm& term = *only;
     const double energy = watched[k].integral(duration);
     if (is_of_mechanism(term))
-      whole[term.quantity.substr(0, term.quantity.size() - power.size())] = energy;
+      whole[term.quantity.substr(0, term.quantity.rfind(power))] = energy;
     else if (term.quantity == "friction_power")
       friction[term.object] = energy;
   }
@@ -134,7 +134,9 @@ LimitWatch::LimitWatch(const Problem& problem, const std::vector<double>& parame
       watch("upper", joint.limit->upper, least);
     }
     if (joint.limit->bounds_velocity()) watch("velocity", joint.limit->velocity);
-    if (joint.limit->bounds_effort() && !enforced.effort) watch("effort", joint.limit->effort);
+    // The voltage of a motor is bounded, not its effort.
+    if (joint.limit->bounds_effort() && (!enforced.effort || joint.has_winding()))
+      watch("effort", joint.limit->effort);
   }
 }
 

@@ -29,6 +29,8 @@ std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
   if (unit.empty()) return "";
   if (unit.front() == 'e') return input + unit.substr(1);
   if (unit.front() != 'q' && unit.front() != 'Q') return unit;
+  if (facts.kind == SignalKind::kControllerOutput && joint != nullptr && joint->has_winding())
+    return "V";
   if (joint == nullptr) return "";
   const bool turns = joint->freedoms().turns > 0 && joint->freedoms().slides == 0;
   const char* of_joint = unit.front() == 'q' ? (turns ? "rad" : "m") : (turns ? "N m" : "N");
@@ -67,6 +69,13 @@ std::vector<std::string> further_signals(const RobotDescription& robot, const Mo
   for (const JointDescription& joint : robot.joints)
     if (has_friction(joint) && joint.has_one_coordinate())
       texts.push_back(joint.name + "/friction_power");
+  const std::size_t before = texts.size();
+  for (const JointDescription& joint : robot.joints)
+    if (joint.has_winding())
+      for (const char* quantity : {"/current", "/voltage"}) texts.push_back(joint.name + quantity);
+  if (texts.size() > before)
+    for (const char* quantity : {"electrical_power", "copper_loss"})
+      texts.push_back(std::string("mechanism/") + quantity);
   for (const char* quantity : {"friction_power", "damping_power", "actuator_power", "load_power"})
     texts.push_back(std::string("mechanism/") + quantity);
   return texts;

@@ -7,6 +7,7 @@
 
 #include "forces/friction_numbers.h"
 #include "forces/gear.h"
+#include "forces/winding.h"
 #include "math/scalar.h"
 
 namespace codesign {
@@ -61,10 +62,12 @@ struct JointDynamicsConstants {
       effort{0.0};        ///< valid only if LimitDescription::bounds_position() or bounds_effort()
   StopConstants<T> stop;  ///< valid if the study enforces the joint's limits
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
+  T armature{0.0};                        ///< JointDescription::armature
   /// unit vector in the axes of the body that carries the rotor
   Vector3<T> rotor_axis = Vector3<T>::Zero();
   GearConstants<T> gear;            ///< valid if the actuator has ActuatorDescription::gear
   ElasticGearConstants<T> elastic;  ///< likewise, ActuatorDescription::elastic
+  WindingConstants<T> winding;      ///< likewise, ActuatorDescription::winding
 };
 
 /// One coordinate of a pair as a turn about, or a slide along, an axis; the coordinates of a pair

@@ -140,6 +140,8 @@ std::vector<std::string> linear_state_names(const CompiledSystem& system,
             of + name + (is_list ? "[" + std::to_string(number) + "]" : "");
       }
   }
+  for (const Winding& winding : system.windings())
+    if (winding.state >= 0) names[first + to_index(winding.state)] = winding.joint + "/current";
   return names;
 }
 

@@ -79,6 +79,11 @@ void LinearMotion::settle(const std::vector<double>& integrals) {
       state_.s[states.lag] = equations_.formulas().controller_output(static_cast<int>(c));
     }
   }
+  for (const Winding& winding : system_.windings()) {
+    if (winding.state < 0) continue;
+    equations_.formulas().load(state_);
+    state_.s[winding.state] = equations_.formulas().steady_current(winding);
+  }
 }
 
 Status LinearMotion::linearize_at_rest(State<double> state, const std::vector<double>& integrals) {

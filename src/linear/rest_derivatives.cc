@@ -39,6 +39,7 @@ void RestDerivatives::add_samples(VectorX<Number>* rows) {
     for (const int state : {system_.controllers()[c].state, states.filter, states.last})
       set(state, state);
     set(states.held, output);
+    set(states.computed, output);
     for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, output);
   }
 }

@@ -58,12 +58,19 @@ Study study_at_rest(Study study, const std::vector<double>& parameters) {
   return study;
 }
 
+/// The mechanism whose currents are those at which they stay.
+RobotDescription robot_at_rest(RobotDescription robot) {
+  for (JointDescription& joint : robot.joints)
+    if (joint.has_winding()) joint.actuator->winding->inductance = Quantity(0.0);
+  return robot;
+}
+
 }  // namespace
 
 RestingMechanism::RestingMechanism(const CompiledSystem& system,
                                    const std::vector<double>& parameters)
     : system_{std::make_shared<const CompiledSystem>(
-                  system.robot(), study_at_rest(system.whole_study(), parameters),
+                  robot_at_rest(system.robot()), study_at_rest(system.whole_study(), parameters),
                   system.sharing()),
               {},
               {}},

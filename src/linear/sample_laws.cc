@@ -169,7 +169,10 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
       if (places[k] >= 0) s->row(places[k]) = product(behind[k]->by, variables);
   }
   if (realization.output_limit) output = clamp(output, limit);
+  // About rest no rate is near its limit.
   s->row(output_state(system_, event)) = product(output.by, variables);
+  if (controller.states.computed >= 0)
+    s->row(controller.states.computed) = s->row(output_state(system_, event)).eval();
 }
 
 Eigen::MatrixXcd SampleLaws::jump(const std::vector<ControlEvent>& events,

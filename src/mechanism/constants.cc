@@ -163,6 +163,14 @@ bool is_possible(const ElasticGearConstants<double>& elastic) {
          std::isfinite(elastic.stiffness + elastic.damping + elastic.backlash);
 }
 
+bool is_possible(const WindingConstants<double>& winding, bool has_state) {
+  return winding.resistance > 0.0 && winding.torque_constant > 0.0 &&
+         (winding.inductance > 0.0 || !has_state) &&
+         (winding.bus_voltage > 0.0 || !winding.is_bounded) &&
+         std::isfinite(winding.resistance + winding.torque_constant + winding.inductance +
+                       winding.bus_voltage);
+}
+
 std::string joint_fault(const RobotDescription& robot, const Pair& pair,
                         const PairConstants<double>& constants) {
   for (std::size_t e = 0; e < pair.chain.size(); ++e) {
@@ -175,15 +183,21 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair,
         !std::isfinite(d.gear_ratio))
       return "the rotor of joint '" + joint.name +
              "' is out of range (allowed: finite gear_ratio, finite rotor_inertia >= 0)";
+    if (!(d.armature >= 0.0) || !std::isfinite(d.armature))
+      return "the armature of joint '" + joint.name + "' is out of range (allowed: finite, >= 0)";
     if (joint.actuator && joint.actuator->gear &&
         !(is_possible(d.gear) && is_possible(d.gear.slip)))
       return "the gear of joint '" + joint.name +
              "' is out of range (allowed: efficiency > 0 and at most 1, backdrive_efficiency at "
              "most 1, coulomb and viscous >= 0, all others > 0)";
-    if (joint.has_elastic_gear() && !(is_possible(d.elastic) && d.rotor_inertia > 0.0))
+    if (joint.has_elastic_gear() && !(is_possible(d.elastic) && d.rotor_inertia + d.armature > 0.0))
       return "the elastic gear of joint '" + joint.name +
              "' is out of range (allowed: stiffness > 0, damping >= 0, backlash > 0, rotor_inertia "
-             "> 0)";
+             "or armature > 0)";
+    if (joint.has_winding() && !is_possible(d.winding, joint.actuator->winding->has_state()))
+      return "the winding of joint '" + joint.name +
+             "' is out of range (allowed: resistance, torque_constant and bus_voltage > 0, "
+             "inductance > 0, or 0 without a parameter)";
   }
   return "";
 }

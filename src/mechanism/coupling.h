@@ -71,8 +71,8 @@ struct DrivenTree {
     bool moved = false;   ///< the driven joint moves this body
     /// index of the controller that prescribes an acceleration of this joint, or -1
     int controller = -1;
-    /// The joint has an actuator, whose rotor the parent carries; theory (9a). Set only if
-    /// accelerations are prescribed.
+    /// The joint has an actuator, whose rotor the parent carries, (9a), or an armature, (9e). Set
+    /// only if accelerations are prescribed.
     bool rotor = false;
   };
   std::vector<Node> nodes;  ///< parents before children

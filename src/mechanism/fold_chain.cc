@@ -103,7 +103,7 @@ std::optional<PairKind> kind_of_chain(const RobotDescription& robot, const Topol
 bool needs_coordinate(const RobotDescription& robot, const Topology& topology, int k) {
   const JointDescription& joint = robot.joints[to_index(k)];
   if (!joint.damping.is_zero() || !joint.dry_friction.is_zero() || joint.spring || joint.actuator ||
-      joint.mimic)
+      joint.mimic || !joint.armature.is_zero())
     return true;
   for (const JointDescription& other : robot.joints)
     if (other.mimic && other.mimic->joint == joint.name) return true;

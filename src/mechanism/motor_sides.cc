@@ -20,6 +20,7 @@ JointDescription motor_side(const JointDescription& joint, int link) {
   motor.origin = joint.origin;
   motor.axis = joint.axis;
   motor.actuator = joint.actuator;
+  motor.armature = joint.armature;
   motor.actuator->elastic.reset();
   if (joint.limit) {
     motor.limit.emplace();

@@ -260,6 +260,7 @@ class PairBuilder {
     JointDynamicsConstants<T> d;
     d.damping = joint.damping.at(parameters_);
     d.dry_friction = joint.dry_friction.at(parameters_);
+    d.armature = joint.armature.at(parameters_);
     if (joint.limit) {
       d.lower = joint.limit->lower.at(parameters_);
       d.upper = joint.limit->upper.at(parameters_);
@@ -280,6 +281,7 @@ class PairBuilder {
     d.rotor_inertia = actuator.rotor_inertia.at(parameters_);
     d.rotor_axis = pair_.chain[k].reversed ? Vector3<T>(R_ji * axis(k)) : axis(k);
     if (actuator.gear) d.gear = gear(*actuator.gear, d.gear_ratio);
+    if (actuator.winding) d.winding = winding(*actuator.winding);
     if (!actuator.elastic) return;
     d.elastic.stiffness = actuator.elastic->stiffness.at(parameters_);
     d.elastic.damping = actuator.elastic->damping.at(parameters_);
@@ -297,6 +299,16 @@ class PairBuilder {
     c.coulomb = (is_less(n, T(0.0), false) ? T(-n) : n) * gear.coulomb.at(parameters_);
     c.viscous = n * n * gear.viscous.at(parameters_);
     c.slip = friction(gear.slip);
+    return c;
+  }
+
+  WindingConstants<T> winding(const WindingDescription& winding) const {
+    WindingConstants<T> c;
+    c.resistance = winding.resistance.at(parameters_);
+    c.inductance = winding.inductance.at(parameters_);
+    c.torque_constant = winding.torque_constant.at(parameters_);
+    c.is_bounded = winding.bus_voltage.has_value();
+    if (c.is_bounded) c.bus_voltage = winding.bus_voltage->at(parameters_);
     return c;
   }
 

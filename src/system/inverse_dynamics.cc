@@ -39,7 +39,9 @@ T InverseDynamics<T>::load(const Constants<T>& constants, const Vector3<T>& grav
     const JointDynamicsConstants<T>& d = pair(k).dynamics.front();
     const T coupling = d.gear_ratio * d.rotor_inertia;
     if (k == to_index(tree_.driven))
-      load = coupling * (d.gear_ratio * joint.acceleration + dot<T>(d.rotor_axis, parent(k).alpha));
+      load =
+          coupling * (d.gear_ratio * joint.acceleration + dot<T>(d.rotor_axis, parent(k).alpha)) +
+          d.armature * joint.acceleration;
     else
       wrenches_[to_index(node.parent)].moment +=
           coupling * (joint.acceleration * d.rotor_axis +

@@ -73,8 +73,16 @@ struct ControllerEffort {
   bool saturated = false;        ///< `<limit effort>` bounds their sum
 };
 
-using JointLoadPart = std::variant<BearingFriction, PassiveLoad, DryFriction, StopLoad,
-                                   ElasticGearSide, GivenEffort, GearLoss, ControllerEffort>;
+/// The torque of a motor that a voltage moves, theory (9d).
+struct WindingTorque {
+  static constexpr std::optional<PowerKind> kPower = PowerKind::kActuator;
+  static constexpr bool kBehindGear = true;
+  int winding = -1;  ///< index in System::windings()
+};
+
+using JointLoadPart =
+    std::variant<BearingFriction, PassiveLoad, DryFriction, StopLoad, ElasticGearSide, GivenEffort,
+                 GearLoss, ControllerEffort, WindingTorque>;
 
 /// All loads along one joint coordinate.
 struct JointLoad {

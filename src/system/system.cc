@@ -52,6 +52,7 @@ System::System(const RobotDescription& robot, const Study& study, ReactionSharin
   resolve_controllers();
   check_signals();
   collect_elastic_gears();
+  collect_windings();
   collect_loads();
   collect_link_loads();
   collect_rotors();
@@ -275,6 +276,12 @@ void System::check_effort_rate(const SignalReference& term,
            "the motion of the joint is given, and the rate of the effort that it needs "
            "is not available",
            description.text, drive.name + "/effort"});
+  // The current has a rate of its own.
+  const std::vector<ChainElement>& chain = topology_.pairs[to_index(term.pair)].chain;
+  if (to_index(term.element) < chain.size()) {
+    const JointDescription& joint = robot_.joints[to_index(chain[to_index(term.element)].joint)];
+    if (joint.has_winding() && joint.actuator->winding->has_state()) return;
+  }
   for (std::size_t c = 0; c < controllers_.size(); ++c) {
     if (controllers_[c].pair != term.pair || controllers_[c].element != term.element ||
         controllers_[c].has_output_rate)

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "control/controller.h"
@@ -32,16 +33,28 @@ struct ElasticGear {
   CoordinateIndex joint, motor;
 };
 
+/// The winding of a joint's motor, theory (9d).
+struct Winding {
+  int pair = -1, element = -1;  ///< coordinate of the motor, System::motor_of()
+  std::string joint;            ///< name of the joint that it moves
+  /// whether it determines the effort; else the motion is given, and the effort the current
+  bool acts = false;
+  std::vector<int> controllers;  ///< whose outputs add up to the voltage
+  int state = -1;                ///< of the current among the extra states; -1: L = 0
+  int start = -1;  ///< index in MotionStudy::initial_state with a current; -1: it starts at 0
+};
+
 /// Friction whose bristles hold its joint at the start; theory (13h).
 struct StuckContact {
   std::size_t bristle = 0;  ///< index in System::bristles()
   std::size_t start = 0;    ///< index in MotionStudy::initial_state
 };
 
-/// The rotor of an actuator, theory (9a).
+/// The rotor of an actuator, theory (9a), or an armature, (9e).
 struct Rotor {
   int pair = -1, element = -1;  ///< coordinate of the joint that it drives
-  int body = -1;                ///< body that carries it; -1: the ground
+  int body = -1;                ///< body that carries it; -1: the ground, or none
+  bool is_armature = false;     ///< an inertia of the coordinate alone
 };
 
 /// The expressions of signals of a load with their names resolved; empty for functions of time.
@@ -99,6 +112,7 @@ class System {
   bool reads_time() const { return reads_time_; }
   const std::vector<Rotor>& rotors() const { return rotors_; }
   const std::vector<ElasticGear>& elastic_gears() const { return elastic_gears_; }
+  const std::vector<Winding>& windings() const { return windings_; }
   /// The coordinate of the motor that moves a joint's coordinate: behind an elastic gear that of
   /// the motor, else the joint's own.
   CoordinateIndex motor_of(int pair, int element) const;
@@ -161,6 +175,7 @@ class System {
   void check_signals() const;
   void check_effort_rate(const SignalReference& term, const SignalDescription& description) const;
   void collect_elastic_gears();
+  void collect_windings();
   void add_elastic_gear(JointLoad* load) const;
   void add_loads_of(const JointDescription& joint, bool slips_in_contact, int* unknowns,
                     JointLoad* load) const;
@@ -168,6 +183,7 @@ class System {
   void collect_loads();
   void collect_link_loads();
   void collect_rotors();
+  void add_rotor(int joint, int body, bool is_armature);
   void collect_bristles();
   void add_bristle(BristleContact contact);
   void collect_stuck();
@@ -195,6 +211,7 @@ class System {
   bool reads_time_ = false;
   std::vector<Rotor> rotors_;
   std::vector<ElasticGear> elastic_gears_;
+  std::vector<Winding> windings_;
   std::vector<int> contacts_;
   std::vector<BristleContact> bristles_;
   std::vector<StuckContact> stuck_;

@@ -94,9 +94,17 @@ void System::add_efforts(const JointDescription* joint, JointLoad* load) const {
   ControllerEffort effort;
   effort.saturated =
       joint && study().limits.effort && joint->limit && joint->limit->bounds_effort();
+  const CoordinateIndex at{load->pair, load->element};
+  const Winding* winding = nullptr;
+  for (std::size_t k = 0; k < windings_.size(); ++k) {
+    if (!windings_[k].acts || !(CoordinateIndex{windings_[k].pair, windings_[k].element} == at))
+      continue;
+    winding = &windings_[k];
+    load->parts.emplace_back(WindingTorque{static_cast<int>(k)});
+  }
   for (std::size_t c = 0; c < controllers_.size(); ++c)
-    if (motor_of(controllers_[c].pair, controllers_[c].element) ==
-        CoordinateIndex{load->pair, load->element})
+    if (motor_of(controllers_[c].pair, controllers_[c].element) == at &&
+        (!winding || study().controllers[c].gives_effort))
       effort.controllers.push_back(static_cast<int>(c));
   if (!effort.controllers.empty()) load->parts.emplace_back(std::move(effort));
 }
@@ -154,32 +162,38 @@ void System::collect_link_loads() {
   }
 }
 
+/// Adds the rotor of a joint, or its armature, which no body carries.
+void System::add_rotor(int joint, int body, bool is_armature) {
+  const int pair = topology_.joint_pair[to_index(joint)];
+  const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
+  for (std::size_t e = 0; e < chain.size(); ++e) {
+    if (chain[e].joint != joint) continue;
+    if (!has_coordinate_[to_index(pair)][e]) refuse_load(pair, static_cast<int>(e));
+    rotors_.push_back({pair, static_cast<int>(e), body, is_armature});
+  }
+}
+
 void System::collect_rotors() {
   for (std::size_t j = 0; j < robot_.joints.size(); ++j) {
     const JointDescription& joint = robot_.joints[j];
-    if (!joint.actuator || joint.motor >= 0) continue;
-    const bool turns = !joint.actuator->rotor_inertia.is_zero();
-    if (!turns && !joint.actuator->gear) continue;
+    if (joint.motor >= 0) continue;
+    const bool turns = joint.actuator && !joint.actuator->rotor_inertia.is_zero(),
+               has_armature = !joint.armature.is_zero();
+    const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
     const auto refuse = [&joint](const std::string& fault, const std::string& value) {
       throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>", fault,
                         value,
                         "a link with <inertial>, which holds the rotor's mass and its inertia as "
                         "if it did not spin"});
     };
-    const int pair = topology_.joint_pair[j], body = topology_.link_body[to_index(joint.parent)];
-    if (pair < 0)
+    if (pair < 0 && joint.actuator && (turns || has_armature || joint.actuator->gear))
       refuse("the joint moves only a link without <inertial>",
              robot_.links[to_index(joint.child)].name);
-    if (!turns) continue;
-    if (body == Topology::kMassless)
+    if (turns && body == Topology::kMassless)
       refuse("the parent link, which carries the rotor, has no <inertial>",
              robot_.links[to_index(joint.parent)].name);
-    const std::vector<ChainElement>& chain = topology_.pairs[to_index(pair)].chain;
-    for (std::size_t e = 0; e < chain.size(); ++e) {
-      if (chain[e].joint != static_cast<int>(j)) continue;
-      if (!has_coordinate_[to_index(pair)][e]) refuse_load(pair, static_cast<int>(e));
-      rotors_.push_back({pair, static_cast<int>(e), body});
-    }
+    if (turns) add_rotor(static_cast<int>(j), body, false);
+    if (has_armature && pair >= 0) add_rotor(static_cast<int>(j), Topology::kGround, true);
   }
 }
 

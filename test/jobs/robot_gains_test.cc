@@ -42,6 +42,20 @@ TEST(GainsYaml, WithoutHardwareThereIsNone) {
   EXPECT_EQ(gains_yaml(pendulum(), pendulum().parameters()), "");
 }
 
+TEST(GainsYaml, NamesRateLimitsAndWhatDrivesTheJointBesideIt) {
+  const Problem problem = pendulum_on_hardware();
+  Study study = study_of(problem);
+  study.controllers.at(0).realization.rate_limit = ControlBounds{Quantity(5.0), std::nullopt};
+  ControllerDescription ahead;
+  ahead.name = "ahead";
+  ahead.kind = ControllerKind::kStateFeedback;
+  ahead.output = study.controllers.at(0).output;
+  study.controllers.push_back(ahead);
+  const std::string text = gains_yaml(with_study(problem, study), problem.parameters());
+  EXPECT_NE(text.find("not in these gains, as the study has it: "), std::string::npos) << text;
+  EXPECT_NE(text.find("rate_limit, the output of ahead beside it"), std::string::npos) << text;
+}
+
 TEST(GainsYaml, HoldsWhatControlToolboxReads) {
   const Problem problem = pendulum_on_hardware();
   Eigen::VectorXd rho = problem.start();

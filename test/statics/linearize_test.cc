@@ -140,9 +140,9 @@ TEST(Linearize, AntiWindupAtRestIsNotSeen) {
   }
 }
 
-// A motor by resistance, inductance and constant, as doc/actuators.md says it:
+// A motor by resistance, inductance and constant, as two controllers say it:
 // L s^3 + R s^2 + k^2 s + k p with the mass 1.
-TEST(Linearize, AMotorByItsVoltage) {
+TEST(Linearize, AMotorByTwoControllers) {
   const double R = 0.5, L = 0.01, k = 0.2, p = 30.0;
   const LinearModel model = model_of(
       carts(1, {""}),
@@ -155,6 +155,59 @@ TEST(Linearize, AMotorByItsVoltage) {
     const std::complex<double> s = mode.pole.value;
     const double size = L * std::pow(std::abs(s), 3);
     EXPECT_LT(std::abs(((L * s + R) * s + k * k) * s + k * p), 1e-10 * (size + k * p)) << s;
+  }
+}
+
+std::string motor(const std::string& winding) {
+  return R"(<codesign:actuator rotor_inertia="0" resistance="0.5" torque_constant="0.2")" +
+         winding + "/>";
+}
+
+// The same cubic, and without L the square R s^2 + K^2 s + K p.
+TEST(Linearize, AMotorByItsVoltage) {
+  const double R = 0.5, L = 0.01, k = 0.2, p = 30.0;
+  const std::string servo = controlled(cart_servo("gains: {p: 30}"));
+  const LinearModel model =
+      model_of(carts(1, {motor(R"( inductance="0.01" bus_voltage="24")")}), servo, {"x0/current"});
+  ASSERT_EQ(model.modes.size(), 2U);
+  for (const LinearMode& mode : model.modes) {
+    const std::complex<double> s = mode.pole.value;
+    const double size = L * std::pow(std::abs(s), 3);
+    EXPECT_LT(std::abs(((L * s + R) * s + k * k) * s + k * p), 1e-9 * (size + k * p)) << s;
+  }
+  EXPECT_EQ(model.system.states,
+            (std::vector<std::string>{"x0/position", "x0/velocity", "x0/current"}));
+  EXPECT_NEAR(model.system.C(0, 2), 1.0, 1e-15);
+  // The loop is K p / (s (L s + R) s + K^2 s).
+  const ControllerLoop& loop = model.loops.at(0);
+  for (std::size_t j = 0; j < loop.frequencies.size(); ++j) {
+    const std::complex<double> s(0.0, loop.frequencies[j]);
+    const std::complex<double> expected = k * p / (s * (s * (L * s + R) + k * k));
+    EXPECT_LT(std::abs(loop.response[j] - expected), 1e-9 * std::abs(expected));
+  }
+  const LinearModel at_once = model_of(carts(1, {motor("")}), servo);
+  const std::complex<double> root =
+      std::sqrt(std::complex<double>(k * k * k * k - 4.0 * R * k * p));
+  expect_poles(at_once, {(-k * k + root) / (2.0 * R)}, 1e-9);
+}
+
+// A servo of the voltage against a spring of 4 N/m about 0.3: u = p (1 - x), K u/R = 4 (x - 0).
+TEST(Linearize, AMotorAtRestHasItsSteadyCurrent) {
+  const double R = 0.5, k = 0.2, p = 30.0;
+  const std::string urdf = carts(1, {sprung(4.0, 0.1) + motor(R"( inductance="0.01")")});
+  const LinearModel model = model_of(
+      urdf,
+      controlled("servo0: {type: pid, input: x0/position, setpoint: 1.0, output: x0, gains: {p: "
+                 "30}}"),
+      {"x0/position"});
+  const double L = 0.01;
+  // (L s + R)(s^2 + 0.1 s + 4) + K^2 s + K p = 0
+  ASSERT_FALSE(model.modes.empty());
+  for (const LinearMode& mode : model.modes) {
+    const std::complex<double> s = mode.pole.value;
+    EXPECT_LT(std::abs((L * s + R) * (s * s + 0.1 * s + 4.0) + k * k * s + k * p),
+              1e-8 * (k * p + L * std::pow(std::abs(s), 3)))
+        << s;
   }
 }
 

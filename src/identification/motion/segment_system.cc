@@ -51,6 +51,7 @@ class SegmentStudy {
     controller.name = "recorded effort of " + joint;
     controller.kind = ControllerKind::kStateFeedback;
     controller.output = joint;
+    controller.gives_effort = true;
     ReferenceDescription& input = controller.feedforward;
     input.kind = ReferenceDescription::Kind::kSampled;
     input.sampled = {std::move(samples),

@@ -157,11 +157,25 @@ std::string list_keys(const StartKeys& keys) {
   return list_names(names);
 }
 
+/// Of the winding of the joint's motor.
+StartKey current_key() {
+  return {"current", false,
+          [](const YamlValue& value, const StartContext& in, InitialJointState* state) {
+            if (!in.joint.has_winding() || !in.joint.actuator->winding->has_state())
+              value.fail(
+                  "the motor of the joint has no inductance, so that its current does not start: "
+                  "it follows from the voltage",
+                  "an inductance in its <codesign:actuator>");
+            state->current = read_quantity(value, in.table);
+          }};
+}
+
 InitialJointState read_joint_start(const std::string& name, const YamlValue& value,
                                    const RobotDescription& robot, const ParameterTable& table) {
   const JointDescription& joint = starting_joint(name, robot, value);
   const bool pose = joint.has_pose(), scalar = joint.has_one_coordinate();
-  const StartKeys keys = with_stuck(pose ? pose_keys() : scalar ? scalar_keys() : StartKeys());
+  StartKeys keys = with_stuck(pose ? pose_keys() : scalar ? scalar_keys() : StartKeys());
+  if (joint.has_winding()) keys.push_back(current_key());
   if (value.is_map())
     for (const StartKey& other : pose ? scalar_keys() : pose_keys())
       if (const auto at = value.find(other.name))
@@ -180,7 +194,7 @@ InitialJointState read_joint_start(const std::string& name, const YamlValue& val
 }  // namespace
 
 std::vector<EntryForm> forms_of_starts() {
-  return {{"initial_state.JOINT", with_stuck(scalar_keys())},
+  return {{"initial_state.JOINT", with(with_stuck(scalar_keys()), StartKeys{current_key()})},
           {"initial_state.JOINT", with_stuck(pose_keys())}};
 }
 

@@ -66,6 +66,14 @@ AntiWindup read_antiwindup(const YamlValue& value) {
   }
 }
 
+void read_rate_limit(const YamlValue& value, const EntryContext& in, ControllerDescription* of) {
+  const bool is_sampled = of->realization.is_sampled();
+  if (!is_sampled && !of->realization.time_constant)
+    value.fail("the output of a continuous controller may jump, and has no rate to limit",
+               "with sample_time; or with time_constant, the lag whose rate it bounds");
+  of->realization.rate_limit = read_control_bounds(value, in.table, is_sampled);
+}
+
 void check_antiwindup(const YamlValue& value, const ControllerDescription& controller) {
   const ControlRealization& realization = controller.realization;
   if (realization.limit_has_corners) {
@@ -148,6 +156,7 @@ ControllerKeys realization_keys(ControllerKind kind) {
          of->realization.output_limit = read_control_bounds(
              value, in.table, of->realization.is_sampled() || of->realization.limit_has_corners);
        }});
+  keys.push_back({"rate_limit", false, read_rate_limit});
   return keys;
 }
 

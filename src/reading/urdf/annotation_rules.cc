@@ -79,9 +79,10 @@ Names friction_attributes() {
 }
 
 Names actuator_attributes() {
-  Names names{"gear_ratio", "rotor_inertia", "efficiency", "backdrive_efficiency",
-              "coulomb",    "viscous",       "stiffness",  "damping",
-              "backlash"};
+  Names names{"gear_ratio",  "rotor_inertia", "efficiency", "backdrive_efficiency",
+              "coulomb",     "viscous",       "stiffness",  "damping",
+              "backlash",    "resistance",    "inductance", "torque_constant",
+              "bus_voltage", "armature"};
   visit_friction_numbers([&names](const FrictionNumberRule& rule) {
     if (rule.of_gears) names.emplace_back(rule.attribute);
   });
@@ -90,7 +91,8 @@ Names actuator_attributes() {
 
 void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRule>* rules) {
   rules->push_back(Rule(path + "/axis").strict(strict).twins({"xyz"}));
-  rules->push_back(Rule(path + "/dynamics").strict(strict).twins({"damping", "friction"}));
+  rules->push_back(
+      Rule(path + "/dynamics").strict(strict).twins({"damping", "friction", "armature"}));
   rules->push_back(Rule(path + "/codesign:friction")
                        .strict()
                        .plain({"model", "transverse_axis"})

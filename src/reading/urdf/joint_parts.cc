@@ -221,6 +221,31 @@ std::optional<ElasticGearDescription> read_elastic_gear(const XmlElement& elemen
   return elastic;
 }
 
+/// The circuit of the motor; none if no attribute gives it. Only a plain 0 leaves out the state of
+/// the current: a parameter must not change the number of states.
+std::optional<WindingDescription> read_winding(const XmlElement& element,
+                                               const ReadContext& context) {
+  if (!element.has("resistance")) {
+    for (const char* attribute : {"inductance", "torque_constant", "bus_voltage"})
+      if (element.has(attribute))
+        element.fail_at(attribute,
+                        std::string(attribute) + " has no effect: the motor has no winding",
+                        "beside resistance");
+    return std::nullopt;
+  }
+  WindingDescription winding;
+  winding.resistance = read_quantity(element, "resistance", Range::kPositive, context.table);
+  winding.torque_constant =
+      read_quantity(element, "torque_constant", Range::kPositive, context.table);
+  winding.inductance =
+      read_quantity_or(0.0, element, "inductance", Range::kNonNegative, context.table);
+  if (winding.has_state() && winding.inductance.nominal() == 0.0)
+    element.fail_at("inductance", "an inductance that depends on a parameter is zero", "> 0, or 0");
+  if (element.has("bus_voltage"))
+    winding.bus_voltage = read_quantity(element, "bus_voltage", Range::kPositive, context.table);
+  return winding;
+}
+
 /// Whether no torque of the joint turns the motor, theory (9b).
 bool locks_itself(const GearDescription& gear) {
   if (!gear.efficiency) return false;
@@ -240,19 +265,26 @@ ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law
   actuator.gear_ratio = read_quantity_or(1.0, element, "gear_ratio", Range::kAny, context.table);
   if (actuator.gear_ratio.nominal() == 0.0)
     element.fail_at("gear_ratio", "the gear ratio is zero", "any other number");
-  actuator.rotor_inertia =
-      read_quantity(element, "rotor_inertia", Range::kNonNegative, context.table);
+  // The armature is the joint's; beside it there need be no rotor.
+  if (element.has("armature"))
+    actuator.rotor_inertia =
+        read_quantity_or(0.0, element, "rotor_inertia", Range::kNonNegative, context.table);
+  else
+    actuator.rotor_inertia =
+        read_quantity(element, "rotor_inertia", Range::kNonNegative, context.table);
+  const bool no_inertia = actuator.rotor_inertia.is_zero() && !element.has("armature");
   actuator.gear = read_gear(element, context);
   actuator.elastic = read_elastic_gear(element, context);
-  if (actuator.elastic && actuator.rotor_inertia.is_zero())
+  actuator.winding = read_winding(element, context);
+  if (actuator.elastic && no_inertia)
     element.fail_at("rotor_inertia",
                     "behind an elastic gear the motor moves by itself, which needs an inertia",
-                    "> 0, or no stiffness");
-  if (actuator.rotor_inertia.is_zero() && actuator.gear && locks_itself(*actuator.gear))
+                    "> 0, or an armature, or no stiffness");
+  if (no_inertia && actuator.gear && locks_itself(*actuator.gear))
     element.fail_at("rotor_inertia",
                     "a self-locking gear needs the inertia of its motor: without it the joint's "
                     "velocity would jump to zero as soon as a load drives the gear",
-                    "> 0, or a backdrive_efficiency above 0");
+                    "> 0, or an armature, or a backdrive_efficiency above 0");
   return actuator;
 }
 

@@ -151,13 +151,29 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
                   "damping=\"...\", friction=\"...\", or no <dynamics>");
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
+  joint->armature = read_magnitude_or_zero(dynamics, "armature", context);
   if (!joint->has_pose() || dynamics.in_overlay()) return;
   if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
     context.warnings->push_back(dynamics.warning(
         "dynamics_ignored",
         "damping and friction of a joint with several coordinates are ignored: it moves freely", "",
         "remove the element"));
-  joint->damping = joint->dry_friction = 0.0;
+  joint->damping = joint->dry_friction = joint->armature = 0.0;
+}
+
+/// That of an actuator takes the place of that of `<dynamics>`, which is its rotor told otherwise.
+void read_armature(const XmlElement& element, const ReadContext& context, JointDescription* joint) {
+  const std::optional<XmlElement> actuator = element.child("codesign:actuator"),
+                                  dynamics = element.child("dynamics");
+  if (actuator)
+    joint->armature =
+        read_quantity_or(0.0, *actuator, "armature", Range::kNonNegative, context.table);
+  else if (dynamics && !dynamics->in_overlay("armature") && !joint->armature.is_zero())
+    context.warnings->push_back(dynamics->warning_at(
+        "armature_read", "armature",
+        "the armature counts as an inertia of the joint's coordinate alone, as in MuJoCo",
+        "write it into <codesign:actuator armature=\"...\"/>, or gear_ratio and rotor_inertia "
+        "there"));
 }
 
 /// Reads the attribute `type` of a joint, or of a loop if `joint` is one; of a joint that URDF does
@@ -201,6 +217,11 @@ void read_joint_parts(const XmlElement& element, const ReadContext& context,
   const std::optional<XmlElement> actuator = element.child("codesign:actuator");
   if (friction) joint->friction = read_friction(*friction, joint->axis, context);
   if (actuator) joint->actuator = read_actuator(*actuator, joint->law(), context);
+  if (joint->has_one_coordinate())
+    read_armature(element, context, joint);
+  else if (!joint->armature.is_zero())
+    dynamics->fail_at("armature", "a joint of this type has no single coordinate for an armature",
+                      "revolute, continuous or prismatic");
   if (joint->is_loop && joint->has_elastic_gear())
     actuator->fail_at("stiffness",
                       "an elastic gear needs a joint of the tree, which gives its motor a start",

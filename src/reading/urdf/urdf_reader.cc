@@ -80,6 +80,28 @@ void read_link_element(const XmlElement& element, const ReadContext& context,
 
 namespace {
 
+/// Warns of rotors with a given ratio of 1 on links that move: their reaction turns the carrier,
+/// and a reflected inertia was meant.
+void warn_of_rotors(const XmlElement& robot, const RobotDescription& description,
+                    Warnings* warnings) {
+  for (const XmlElement& element : robot.children("joint")) {
+    const std::optional<XmlElement> actuator = element.child("codesign:actuator");
+    const int k = joint_named(description, element.text("name"));
+    if (!actuator || !actuator->has("gear_ratio") || k < 0) continue;
+    const JointDescription& joint = description.joints[to_index(k)];
+    const Quantity& ratio = joint.actuator->gear_ratio;
+    if (!ratio.is_constant() || ratio.nominal() != 1.0 || joint.parent == description.root ||
+        joint.actuator->rotor_inertia.is_zero())
+      continue;
+    warnings->push_back(actuator->warning_at(
+        "rotor_of_ratio_one", "gear_ratio",
+        "with the ratio 1 the rotor turns as the joint does, and its reaction turns the link that "
+        "carries it; a reflected inertia, gear_ratio^2 rotor_inertia, does not",
+        "write a reflected inertia as armature=\"...\"; add that of a direct drive to the "
+        "<inertial> of the child link"));
+  }
+}
+
 /// Text or elements beside the `<robot>` of an overlay are an error, since they would be lost.
 XmlDocument load_overlay(SourceText source) {
   Warnings beside = cut_trailing_text(&source);
@@ -165,6 +187,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
   robot.switches = context.table.switches;
   check_names(robot);
   robot.root = find_root(robot);
+  warn_of_rotors(element, robot, &robot.warnings);
   warn_of_foreign_loops(element, robot, &robot.warnings);
   check_mimics(&robot);
   check_bodies(robot, &robot.warnings);

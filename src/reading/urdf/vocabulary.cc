@@ -47,7 +47,6 @@ void add_link(Words* words) {
                     {},
                     {},
                     false,
-                    {},
                     {{"iyx", "ixy"}, {"izx", "ixz"}, {"izy", "iyz"}}});
   words->push_back({link + "/visual",
                     {"name"},
@@ -86,14 +85,11 @@ void add_joint(Words* words) {
                     {},
                     false});
   words->push_back({joint + "/dynamics",
-                    {"damping", "friction"},
+                    {"damping", "friction", "armature"},
                     {},
                     {"coulomb_window"},
                     {},
-                    false,
-                    {{"armature",
-                      "write the rotor's inertia, armature/gear_ratio^2, as rotor_inertia of "
-                      "<codesign:actuator>"}}});
+                    false});
   words->push_back({joint + "/mimic", {"joint", "multiplier", "offset"}, {}, {}, {}, false});
   words->push_back(
       {joint + "/calibration", {"rising", "falling", "reference_position"}, {}, {}, {}, false});

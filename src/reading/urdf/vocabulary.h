@@ -18,8 +18,6 @@ struct Vocabulary {
   Names other_attributes;
   Names other_children;          ///< likewise
   bool repeats_children = true;  ///< false: readers use only the first child with a tag
-  /// Attributes of other tools whose meaning is written otherwise here, and how.
-  std::vector<std::pair<std::string, std::string>> translations = {};
   /// Attributes of other tools that repeat another one, and that one.
   std::vector<std::pair<std::string, std::string>> repeats = {};
 };

@@ -43,12 +43,6 @@ bool same_number(const XmlElement& element, const std::string& a, const std::str
   return number(a).has_value() && number(a) == number(b);
 }
 
-/// Whether the joint has the element that its <dynamics armature> is translated to.
-bool is_translated(const XmlElement& dynamics) {
-  const tinyxml2::XMLNode* const joint = dynamics.node()->Parent();
-  return joint != nullptr && joint->FirstChildElement("codesign:actuator") != nullptr;
-}
-
 class Check {
  public:
   void visit(const XmlElement& element, const std::string& path) {
@@ -82,12 +76,8 @@ class Check {
                                                "correct " + *twin + ", or remove " + attribute));
       return;
     }
-    const std::string* translation = found(words.translations, attribute);
-    if (translation != nullptr && is_translated(element)) return;
-    const std::string near = translation ? "" : nearest_name(attribute, words.attributes);
-    const std::string advice = translation    ? *translation + ", or "
-                               : near.empty() ? ""
-                                              : "write " + near + ", or ";
+    const std::string near = nearest_name(attribute, words.attributes);
+    const std::string advice = near.empty() ? "" : "write " + near + ", or ";
     warnings_.push_back(element.warning_at("unknown_attribute", attribute,
                                            "the attribute " + attribute +
                                                " is ignored, since no reader of URDF knows it" +
