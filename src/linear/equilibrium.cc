@@ -51,14 +51,24 @@ Eigen::VectorXd step_in(double c, const FreeMotions& free, const Eigen::VectorXd
   return free.N * least_norm(matrix).solve(transposed_product(free.N, a)).col(0);
 }
 
-Status not_found(const RestingMechanism& mechanism, const std::string& why) {
-  const Eigen::VectorXd a = mechanism.acceleration();
-  int fastest = 0;
-  const double largest = a.cwiseAbs().maxCoeff(&fastest);
+/// The largest entry of a vector and the coordinate that it belongs to.
+std::string largest_of(const Eigen::VectorXd& values, const std::string& unit,
+                       const RestingMechanism& mechanism) {
+  int place = 0;
+  const double largest = values.cwiseAbs().maxCoeff(&place);
+  return readable(largest, 3) + unit + ", of " +
+         linear_state_names(mechanism.system(), {place}).front();
+}
+
+Status not_found(RestingMechanism* mechanism, const std::string& why) {
+  std::string left = "; there the largest acceleration of a coordinate is " +
+                     largest_of(mechanism->acceleration(), " per s^2", *mechanism);
+  Eigen::MatrixXd N;
+  if (mechanism->linearize(&N).ok() && N.cols() > 0)
+    left += ", and the largest effort that nothing balances " +
+            largest_of(mechanism->unbalanced_efforts(N), " N or N m", *mechanism);
   return {StatusCode::kNoEquilibrium, 0.0,
-          "no posture at rest was found near the start: " + why +
-              "; there the largest acceleration of a coordinate is " + readable(largest, 3) +
-              " per s^2, of " + linear_state_names(mechanism.system(), {fastest}).front()};
+          "no posture at rest was found near the start: " + why + left};
 }
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.
@@ -88,14 +98,14 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
       step = step_in(c, *free, a);
       if (step.cwiseAbs().maxCoeff() <= allowed) status = mechanism->go_to(mechanism->q() + step);
     }
-    if (!status.ok()) return not_found(*mechanism, "the way ends, " + status.cause);
+    if (!status.ok()) return not_found(mechanism, "the way ends, " + status.cause);
     if (tries == 1 && step.cwiseAbs().maxCoeff() <= smallest)
       return find_free_motions(mechanism, free);
     // A step that goes back, as across the edge of a stop, must not be followed by the same again.
     if (last.size() == step.size() && last.dot(step) < 0.0) allowed *= 0.5;
     last = step;
   }
-  return not_found(*mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
+  return not_found(mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
 }
 
 }  // namespace

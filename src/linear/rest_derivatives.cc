@@ -38,6 +38,9 @@ void RestDerivatives::add_samples(VectorX<Number>* rows) {
     const int output = output_state(system_, event);
     for (const int state : {system_.controllers()[c].state, states.filter, states.last})
       set(state, state);
+    for (const std::vector<FilterPlace>& chain : states.inputs)
+      for (const FilterPlace& place : chain)
+        for (int k = 0; k < place.order; ++k) set(place.state + k, place.state + k);
     set(states.held, output);
     for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, output);
   }

@@ -119,6 +119,17 @@ std::vector<double> RestingMechanism::integral_of_controllers() const {
   return values;
 }
 
+// G at accelerations of zero; what reactions add to it is normal to all free motions.
+Eigen::VectorXd RestingMechanism::unbalanced_efforts(const Eigen::MatrixXd& N) {
+  State<double> held = state_;
+  held.z.head(layout_.n).setZero();
+  VectorX<double> G;
+  double g = 0.0;
+  motion_.equations().residual(held, &G, &g);
+  const Eigen::VectorXd efforts = -G.head(layout_.n);
+  return product(N, transposed_product(N, efforts)).col(0);
+}
+
 Status RestingMechanism::linearize(Eigen::MatrixXd* N) {
   if (Status status = motion_.linearize(state_); !status.ok()) return status;
   motion_.equations().linearize(state_, &derivatives_);

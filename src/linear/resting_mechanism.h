@@ -28,6 +28,9 @@ class RestingMechanism {
 
   const VectorX<double>& q() const { return state_.q; }
   Eigen::VectorXd acceleration() const { return state_.z.head(layout_.n); }
+  /// The efforts along coordinates that nothing balances in the present posture, without those that
+  /// constraints take [N or N m]. @param N of linearize().
+  Eigen::VectorXd unbalanced_efforts(const Eigen::MatrixXd& N);
   /// The states of the integrals, and their rates: the errors of their controllers.
   Eigen::VectorXd integrals() const;
   Eigen::VectorXd errors() const;

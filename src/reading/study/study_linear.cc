@@ -53,28 +53,12 @@ struct LinearReader {
     return value.text();
   }
 
-  /// How a sampled filter moves with a small motion has no derivatives by the design yet.
-  void refuse_sampled_filters(const YamlValue& item) const {
-    for (const ControllerDescription& controller : study.controllers) {
-      const bool has_filters =
-          !controller.filters.empty() ||
-          std::any_of(controller.feedback.begin(), controller.feedback.end(),
-                      [](const FeedbackTerm& term) { return !term.filters.empty(); });
-      if (has_filters && controller.realization.is_sampled())
-        item.fail(
-            "the sampled controller \"" + controller.name +
-                "\" has filters, and poles and margins of such loops have no derivatives",
-            "controllers whose filters are continuous; codesign linearize shows these numbers");
-    }
-  }
-
   WatchedSignal watched(const YamlValue& value, const LinearMeasure& measure, Role role) const {
     if (study.postures > 0)
       value.fail(
           "poles and loops are those about the rest of a motion, and positions are many "
           "postures",
           "a study with duration; runs that set other starts or set-points");
-    refuse_sampled_filters(value);
     WatchedSignal watched;
     watched.role = role;
     watched.measure = measure.counts_smallest() ? WatchedSignal::Measure::kMinimum
