@@ -61,14 +61,17 @@ std::string largest_of(const Eigen::VectorXd& values, const std::string& unit,
 }
 
 Status not_found(RestingMechanism* mechanism, const std::string& why) {
-  std::string left = "; there the largest acceleration of a coordinate is " +
-                     largest_of(mechanism->acceleration(), " per s^2", *mechanism);
+  const std::string acceleration = largest_of(mechanism->acceleration(), " per s^2", *mechanism);
   Eigen::MatrixXd N;
-  if (mechanism->linearize(&N).ok() && N.cols() > 0)
-    left += ", and the largest effort that nothing balances " +
-            largest_of(mechanism->unbalanced_efforts(N), " N or N m", *mechanism);
+  if (!mechanism->linearize(&N).ok() || N.cols() == 0)
+    return {StatusCode::kNoEquilibrium, 0.0,
+            "no posture at rest was found near the start: " + why +
+                "; there the largest acceleration of a coordinate is " + acceleration};
   return {StatusCode::kNoEquilibrium, 0.0,
-          "no posture at rest was found near the start: " + why + left};
+          "no posture at rest was found near the start: " + why +
+              "; there the largest acceleration of a coordinate is " + acceleration +
+              ", and the largest effort that nothing balances " +
+              largest_of(mechanism->unbalanced_efforts(N), " N or N m", *mechanism)};
 }
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.
