@@ -7,7 +7,6 @@
 #include "description/motion_study.h"
 #include "math/arrays.h"
 #include "mechanism/topology.h"
-#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -71,7 +70,10 @@ class Resolver {
     const ControllerDescription& description = study_.controllers[k];
     Controller& controller = controllers_[k];
     controller.kind = description.kind;
-    if (description.kind->has_error()) controller.input = readable(description.input, k, ".input");
+    if (description.kind->has_error() || description.kind->input == ControlInput::kObserved)
+      controller.input = readable(description.input, k, ".input");
+    for (const std::string& name : description.observer.efforts)
+      controller.efforts.push_back(place_of(name));
     for (const FeedbackTerm& term : description.feedback)
       controller.feedback.push_back(readable(term.signal, k, ".feedback"));
     if (description.output.empty()) return;
@@ -84,6 +86,13 @@ class Resolver {
     const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers, {});
     controller.pair = resolved.front().pair;
     controller.element = resolved.front().element;
+  }
+
+  int place_of(const std::string& name) const {
+    const auto found = std::find_if(
+        study_.controllers.begin(), study_.controllers.end(),
+        [&name](const ControllerDescription& controller) { return controller.name == name; });
+    return static_cast<int>(found - study_.controllers.begin());
   }
 
   void provide_rate(std::size_t k) {
@@ -148,7 +157,8 @@ class Resolver {
     bool filtered = false;
     for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input)
       filtered = filtered || !filters_of(study_.controllers[k], input).empty();
-    if (sampled || realization.derivative_filter || filtered) refuse_rates(k);
+    const bool observes = controllers_[k].kind->input == ControlInput::kObserved;
+    if (sampled || realization.derivative_filter || filtered || observes) refuse_rates(k);
     for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input) {
       places.inputs.emplace_back();
       for (const FilterDescription& filter : filters_of(study_.controllers[k], input)) {
@@ -162,6 +172,10 @@ class Resolver {
     if (realization.queued() > 0) places.queue = *states;
     *states += realization.queued();
     if (realization.time_constant) places.lag = (*states)++;
+    if (!observes) return;
+    places.estimate = *states;
+    places.estimates = study_.controllers[k].observer.order();
+    *states += places.estimates;
   }
 
   /// A sampled controller must not read accelerations and forces: its output determines them at the
@@ -174,8 +188,8 @@ class Resolver {
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))
         throw InputError({study_.controllers[k].where, element(k),
-                          "a controller with sample_time, filter or derivative_filter cannot read "
-                          "accelerations, forces and powers",
+                          "an observer, or a controller with sample_time, filter or "
+                          "derivative_filter, cannot read accelerations, forces and powers",
                           description.text,
                           "positions, velocities, orientations, energies and controllers"});
     };
@@ -277,7 +291,7 @@ const std::vector<FilterDescription>& filters_of(const ControllerDescription& de
 }
 
 bool Controller::has_start() const {
-  return states.filter >= 0 || states.held >= 0 ||
+  return states.filter >= 0 || states.held >= 0 || states.estimate >= 0 ||
          std::any_of(states.inputs.begin(), states.inputs.end(),
                      [](const std::vector<FilterPlace>& chain) { return !chain.empty(); });
 }
@@ -290,97 +304,10 @@ std::vector<StatePlace> Controller::places(int queued) const {
   for (const StatePlace& place :
        {StatePlace{states.filter, 1, "filter"}, StatePlace{states.last, 1, "last_error"},
         StatePlace{states.held, 1, "held"}, StatePlace{states.queue, queued, "queue"},
-        StatePlace{states.lag, 1, "lag"}})
+        StatePlace{states.lag, 1, "lag"},
+        StatePlace{states.estimate, states.estimates, "estimate"}})
     all.push_back(place);
   return all;
-}
-
-namespace {
-
-// Names are put together for faults alone: a design without any asks for no memory.
-std::string find_bad_bounds(const ControllerDescription& of, const char* key,
-                            const Bounds<double>& bounds, bool is_smooth) {
-  const auto name = [&of, key] { return "controllers." + of.name + "." + key; };
-  const auto is_bad = [is_smooth](double bound) {
-    return is_smooth ? !(bound > 0.0) : bound < 0.0;
-  };
-  const bool is_lower = is_bad(-bounds.lower) && !bounds.is_symmetric;
-  if (is_bad(bounds.upper) || (bounds.is_symmetric && !(bounds.upper > 0.0)))
-    return name() + " is " + to_decimal(bounds.upper) + ", it must be positive";
-  if (is_lower)
-    return "the lower bound of " + name() + " is " + to_decimal(bounds.lower) +
-           (is_smooth ? ", it must be negative" : ", it must not be positive");
-  if (!(bounds.lower < bounds.upper)) return name() + " leaves nothing between its bounds";
-  return "";
-}
-
-/// A frequency from half of the sampling rate on has no bilinear transform that keeps it.
-std::string find_bad_filter(const FilterDescription& filter, const std::string& name,
-                            double sample_time, const std::vector<double>& numbers) {
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
-    const FilterNumber& of = filter.kind->numbers[k];
-    if (of.may_be_zero ? !(numbers[k] >= 0.0) : !(numbers[k] > 0.0))
-      return name + "." + of.name + " is " + to_decimal(numbers[k]) +
-             (of.may_be_zero ? ", it must not be negative" : ", it must be positive");
-  }
-  if (filter.kind->is_prewarped && sample_time * numbers.front() >= 0.5)
-    return name + "." + filter.kind->numbers[0].name + " is " + to_decimal(numbers.front()) +
-           " Hz, it must be below half of the sampling rate, " + to_decimal(0.5 / sample_time) +
-           " Hz";
-  return "";
-}
-
-}  // namespace
-
-std::string find_impossible(const ControllerDescription& description,
-                            const ControllerConstants<double>& constants) {
-  const ControlRealization& realization = description.realization;
-  const auto name = [&description] { return "controllers." + description.name + "."; };
-  const bool is_smooth = !realization.is_sampled();
-  std::string fault;
-  if (realization.i_clamp)
-    fault = find_bad_bounds(description, "i_clamp", constants.i_clamp, is_smooth);
-  if (fault.empty() && realization.output_limit)
-    fault = find_bad_bounds(description, "output_limit", constants.output_limit,
-                            is_smooth && !realization.limit_has_corners);
-  const struct {
-    const char* name;
-    bool exists;
-    double value;
-  } numbers[] = {
-      {"derivative_filter", realization.derivative_filter.has_value(), constants.derivative_filter},
-      {"time_constant", realization.time_constant.has_value(), constants.time_constant}};
-  for (const auto& number : numbers)
-    if (fault.empty() && number.exists && !(number.value > 0.0))
-      fault = name() + number.name + " is " + to_decimal(number.value) + ", it must be positive";
-  // With the opposite sign what is cut off would drive the integral on.
-  if (fault.empty() && realization.antiwindup == AntiWindup::kBackCalculation &&
-      constants.tracking * constants.pid.i < 0.0)
-    fault = name() +
-            (realization.tracking_time ? "tracking_time is " : "tracking_time, p / i, is ") +
-            to_decimal(constants.tracking / constants.pid.i) + ", it must be positive";
-  return fault;
-}
-
-std::string find_impossible_filter(const ControllerDescription& description,
-                                   const std::vector<double>& parameters) {
-  for (std::size_t k = 0; k < filtered_inputs(description); ++k) {
-    const std::vector<FilterDescription>& filters = filters_of(description, k);
-    for (std::size_t stage = 0; stage < filters.size(); ++stage) {
-      const FilterDescription& filter = filters[stage];
-      std::vector<double> numbers;
-      for (const Quantity& number : filter.numbers) numbers.push_back(number.at(parameters));
-      const bool is_term = !description.kind->has_error();
-      std::string name = "controllers." + description.name +
-                         (is_term ? ".feedback[" + std::to_string(k) + "]" : "") + ".filter";
-      if (filters.size() > 1) name += "[" + std::to_string(stage) + "]";
-      if (std::string fault =
-              find_bad_filter(filter, name, description.realization.sample_time, numbers);
-          !fault.empty())
-        return fault;
-    }
-  }
-  return "";
 }
 
 std::vector<Controller> resolve_controllers(const MotionStudy& study, const RobotDescription& robot,

@@ -111,6 +111,24 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
   return not_found(mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
 }
 
+/// A sampled observer whose model does not rest moves between its samples.
+Status check_estimates(const RestingMechanism& mechanism, const MotionStudy& study) {
+  constexpr double kStill = 1e-8;  // [q/s]
+  const std::vector<double> estimates = mechanism.estimates_of_controllers();
+  std::size_t place = 0;
+  for (const ControllerDescription& controller : study.controllers) {
+    if (controller.kind->input != ControlInput::kObserved) continue;
+    const double speed = estimates[place + 1];
+    place += to_index(controller.observer.order());
+    if (controller.realization.is_sampled() && std::abs(speed) > kStill)
+      return {StatusCode::kNoEquilibrium, 0.0,
+              "the estimates of the sampled observer \"" + controller.name +
+                  "\" move between samples at rest: its model does not know the effort that holds "
+                  "the joint; give it disturbance: true"};
+  }
+  return {};
+}
+
 }  // namespace
 
 Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<double>& parameters,
@@ -130,15 +148,20 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   if (!found.status.ok()) return found;
   const double longest = kLongest * system.study().duration;
   FreeMotions free;
-  found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
+  // Efforts that follow estimates do not lead to a rest before these have settled.
+  if (!mechanism.has_estimates())
+    found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
   // Without its integrals the mechanism may have no posture at rest.
   if (mechanism.integrals().size() > 0 && found.status.code != StatusCode::kCancelled)
     found.status =
         rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
+  if (found.status.ok()) found.status = check_estimates(mechanism, system.study());
   if (!found.status.ok()) return found;
   found.state = mechanism.state();
   found.integrals = mechanism.integral_of_controllers();
+  const std::vector<double> estimates = mechanism.estimates_of_controllers();
+  found.integrals.insert(found.integrals.end(), estimates.begin(), estimates.end());
   found.linear = linear_model({&system, parameters, question, true, found.integrals},
                               mechanism.state(), mechanism.theta());
   found.status = found.linear.status;

@@ -74,6 +74,11 @@ RestingMechanism::RestingMechanism(const CompiledSystem& system,
   derivatives_.resize(system_.system->patterns());
   for (const Controller& controller : system_.system->controllers())
     if (controller.state >= 0) integrals_.push_back(controller.state);
+  for (const Controller& controller : system_.system->controllers())
+    for (int k = 0; k < controller.states.estimates; ++k) {
+      integrals_.push_back(controller.states.estimate + k);
+      has_estimates_ = true;
+    }
 }
 
 Status RestingMechanism::begin() {
@@ -128,6 +133,14 @@ Eigen::VectorXd RestingMechanism::unbalanced_efforts(const Eigen::MatrixXd& N) {
   motion_.equations().residual(held, &G, &g);
   const Eigen::VectorXd efforts = -G.head(layout_.n);
   return product(N, transposed_product(N, efforts)).col(0);
+}
+
+std::vector<double> RestingMechanism::estimates_of_controllers() const {
+  std::vector<double> values;
+  for (const Controller& controller : system_.system->controllers())
+    for (int k = 0; k < controller.states.estimates; ++k)
+      values.push_back(state_.s[controller.states.estimate + k]);
+  return values;
 }
 
 Status RestingMechanism::linearize(Eigen::MatrixXd* N) {

@@ -228,6 +228,20 @@ void SampleLaws::advance_filters(int controller, const ComplexMotion& motion, Ei
   }
 }
 
+/// At rest the innovation of a sampled observer, its law, is zero.
+void SampleLaws::correct_estimates(const ControlEvent& event, const std::vector<Complex>& design,
+                                   const Eigen::RowVectorXcd& law, Eigen::MatrixXcd* s) {
+  const auto c = to_index(event.controller);
+  const ControllerDescription& description = study_.study.controllers[c];
+  const ControllerStates& states = system_.controllers()[c].states;
+  const JointObserver<Complex> observer =
+      joint_observer(description.observer, description.realization.sample_time, design);
+  for (int k = 0; k < states.estimates; ++k)
+    s->row(states.estimate + k) +=
+        (k == 2 ? observer.inertia : Complex(1.0)) * observer.gains[to_index(k)] * law;
+  s->row(output_state(system_, event)) = law;
+}
+
 void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
                         Eigen::MatrixXcd* s) {
   const auto c = to_index(event.controller);
@@ -243,6 +257,7 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
   advance_filters(event.controller, motion, s);
   // The law reads what earlier events of the instant have written.
   const Eigen::RowVectorXcd law = row_of(event.controller, 0, motion, *s, &value);
+  if (controller.states.estimate >= 0) return correct_estimates(event, design, law, s);
   SampleNumber output = SampleNumber::variable(value, 0);
   Eigen::MatrixXcd variables = Eigen::MatrixXcd::Zero(SampleNumber::kVariables, law.size());
   variables.row(0) = law;

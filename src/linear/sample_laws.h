@@ -42,6 +42,8 @@ class SampleLaws {
   Eigen::RowVectorXcd row_of(int controller, std::size_t watched, const ComplexMotion& motion,
                              const Eigen::MatrixXcd& s, std::complex<double>* value);
   void advance_filters(int controller, const ComplexMotion& motion, Eigen::MatrixXcd* s);
+  void correct_estimates(const ControlEvent& event, const std::vector<std::complex<double>>& design,
+                         const Eigen::RowVectorXcd& law, Eigen::MatrixXcd* s);
   void sample(const ControlEvent& event, const ComplexMotion& motion, Eigen::MatrixXcd* s);
 
   const CompiledSystem& system_;

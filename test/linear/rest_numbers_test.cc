@@ -225,6 +225,37 @@ TEST(RestNumbers, OfASampledFilterThatOthersRead) {
       1e-7, 2);
 }
 
+// A disturbance observer finds the weight of the arm, continuously and sampled with a delay, and a
+// Kalman filter feeds a cart.
+TEST(RestNumbers, OfObservers) {
+  for (const std::string sampled : {"", ", sample_time: 0.01, delay: 0.004"}) {
+    const bool is_sampled = !sampled.empty();
+    expect_derivatives(
+        kPendulum,
+        tuned({{"p", 30.0}, {"J", 0.4}, {"w", 4.0}}) + "  l: {}\n" +
+            "duration: 10\ncontrollers: {eye: {type: observer, joint: hinge, inertia: \"${J}\", "
+            "bandwidth: \"${w}\", disturbance: true" +
+            (is_sampled ? ", sample_time: 0.01" : "") +
+            "}, servo: {type: state_feedback, output: hinge, feedback: [{signal: eye/position, "
+            "gain: \"${p}\", reference: 0.7}, {signal: eye/velocity, gain: 5}, {signal: "
+            "eye/disturbance, gain: 1}]" +
+            sampled + "}}\n" +
+            bounds("servo", {"phase_margin", "sensitivity"}, is_sampled ? kSampledPoles : kOfPoles),
+        1e-7, 2);
+    expect_derivatives(
+        carts(1, {damped(1.0)}),
+        tuned({{"p", 30.0}, {"noise", 2.0}}) +
+            controlled(std::string("eye: {type: observer, joint: x0, inertia: 1.3, process: "
+                                   "\"${noise}\", measurement: 1.0e-5") +
+                       (is_sampled ? ", sample_time: 0.01" : "") +
+                       "}, servo: {type: state_feedback, output: x0, feedback: [{signal: "
+                       "eye/position, gain: \"${p}\"}, {signal: eye/velocity, gain: 5}]" +
+                       sampled + "}") +
+            bounds("servo", {"phase_margin", "sensitivity"}, is_sampled ? kSampledPoles : kOfPoles),
+        1e-7, 2);
+  }
+}
+
 // s^2 + d s + p at critical damping: the mean of both poles.
 TEST(RestNumbers, OfPolesThatMeet) {
   const Problem problem =

@@ -113,6 +113,68 @@ void read_basis_controller(const YamlValue& value, const Context& context,
   controller->basis = read_basis(controller->name, value, context.table, context.study.duration);
 }
 
+/// Poles as numbers or pairs, one per state.
+void read_observer_poles(const YamlValue& value, ObserverDescription* observer) {
+  for (const YamlValue& item : value.items()) {
+    std::vector<double> pole;
+    if (item.is_list())
+      for (const YamlValue& number : item.items()) pole.push_back(number.number());
+    else
+      pole = {item.number(), 0.0};
+    if (pole.size() != 2 || !(pole[0] < 0.0))
+      item.fail("an estimate decays only by poles on the left of the axis",
+                "a number below 0 [1/s], or a pair [real part, imaginary part]");
+    for (const double side : {1.0, -1.0}) {
+      observer->real.push_back(pole[0]);
+      observer->imaginary.push_back(side * pole[1]);
+      if (pole[1] == 0.0) break;
+    }
+  }
+  if (observer->real.size() != static_cast<std::size_t>(observer->order()))
+    value.fail("found " + std::to_string(observer->real.size()) + " poles for " +
+                   std::to_string(observer->order()) + " estimates",
+               "position and velocity, with disturbance: true a third one; a pair as one entry");
+}
+
+Quantity read_observer_number(const YamlValue& value, const ParameterTable& table) {
+  const Quantity quantity = read_quantity(value, table);
+  if (!(quantity.nominal() > 0.0))
+    value.fail("this must be positive at the parameters' start", "more than 0");
+  return quantity;
+}
+
+void read_observer(const YamlValue& value, const Context& context,
+                   ControllerDescription* controller) {
+  value.require_keys({"type", "joint", "inertia"}, {"input", "disturbance", "poles", "bandwidth",
+                                                    "process", "measurement", "sample_time"});
+  ObserverDescription& observer = controller->observer;
+  const YamlValue joint = value.at("joint");
+  observer.joint = scalar_joint(joint.text(), context.robot, joint).name;
+  const auto input = value.find("input");
+  controller->input = input ? read_signal(*input, context)
+                            : SignalDescription{observer.joint + "/position",
+                                                {{1.0, observer.joint, "position", ""}},
+                                                controller->where};
+  observer.inertia = read_observer_number(value.at("inertia"), context.table);
+  if (const auto disturbance = value.find("disturbance"))
+    observer.has_disturbance = disturbance->boolean();
+  const auto poles = value.find("poles"), bandwidth = value.find("bandwidth"),
+             process = value.find("process"), measurement = value.find("measurement");
+  const bool by_noise = process && measurement;
+  if (static_cast<bool>(process) != static_cast<bool>(measurement) ||
+      (poles ? 1 : 0) + (bandwidth ? 1 : 0) + (by_noise ? 1 : 0) != 1)
+    value.fail("the gains of an observer follow from one of three",
+               "poles; bandwidth; or process and measurement, for a Kalman filter");
+  if (poles) read_observer_poles(*poles, &observer);
+  if (bandwidth) observer.bandwidth = read_observer_number(*bandwidth, context.table);
+  if (!by_noise) return;
+  observer.process = read_observer_number(*process, context.table);
+  observer.measurement = read_observer_number(*measurement, context.table);
+  if (observer.has_disturbance && value.find("sample_time"))
+    process->fail("a sampled Kalman filter with a disturbance has no gains in closed form",
+                  "bandwidth or poles; or no sample_time; or no disturbance");
+}
+
 void read_law(const YamlValue& value, const Context& context, ControllerDescription* controller) {
   switch (controller->kind->input) {
     case ControlInput::kSignal:
@@ -123,6 +185,8 @@ void read_law(const YamlValue& value, const Context& context, ControllerDescript
       return read_state_feedback(value, context, controller);
     case ControlInput::kShape:
       return read_basis_controller(value, context, controller);
+    case ControlInput::kObserved:
+      return read_observer(value, context, controller);
   }
 }
 
@@ -154,7 +218,7 @@ void refuse_idle(const Study& study) {
     });
   };
   for (const ControllerDescription& controller : study.controllers) {
-    if (!controller.output.empty()) continue;
+    if (!controller.output.empty() || controller.kind->input == ControlInput::kObserved) continue;
     const bool is_read = std::any_of(
         study.controllers.begin(), study.controllers.end(),
         [&](const ControllerDescription& other) {
@@ -183,6 +247,10 @@ void read_controllers(const YamlValue& study_value, const RobotDescription& robo
     study->controllers.push_back(
         read_controller(name, value, Context{robot, table, loader, *study}));
   refuse_idle(*study);
+  for (ControllerDescription& observer : study->controllers)
+    for (const ControllerDescription& controller : study->controllers)
+      if (controller.output == observer.observer.joint && !controller.output.empty())
+        observer.observer.efforts.push_back(controller.name);
 }
 
 }  // namespace codesign
