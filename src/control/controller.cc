@@ -70,7 +70,10 @@ class Resolver {
     const ControllerDescription& description = study_.controllers[k];
     Controller& controller = controllers_[k];
     controller.kind = description.kind;
-    if (description.kind->has_error()) controller.input = readable(description.input, k, ".input");
+    if (description.kind->has_error() || description.kind->input == ControlInput::kObserved)
+      controller.input = readable(description.input, k, ".input");
+    for (const std::string& name : description.observer.efforts)
+      controller.efforts.push_back(place_of(name));
     for (const FeedbackTerm& term : description.feedback)
       controller.feedback.push_back(readable(term.signal, k, ".feedback"));
     if (description.output.empty()) return;
@@ -90,6 +93,13 @@ class Resolver {
     const Signal resolved = resolve_signal(output, robot_, topology_, study_.controllers, {});
     controller.pair = resolved.front().pair;
     controller.element = resolved.front().element;
+  }
+
+  int place_of(const std::string& name) const {
+    const auto found = std::find_if(
+        study_.controllers.begin(), study_.controllers.end(),
+        [&name](const ControllerDescription& controller) { return controller.name == name; });
+    return static_cast<int>(found - study_.controllers.begin());
   }
 
   void provide_rate(std::size_t k) {
@@ -154,7 +164,8 @@ class Resolver {
     bool filtered = false;
     for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input)
       filtered = filtered || !filters_of(study_.controllers[k], input).empty();
-    if (sampled || realization.derivative_filter || filtered) refuse_rates(k);
+    const bool observes = controllers_[k].kind->input == ControlInput::kObserved;
+    if (sampled || realization.derivative_filter || filtered || observes) refuse_rates(k);
     for (std::size_t input = 0; input < filtered_inputs(study_.controllers[k]); ++input) {
       places.inputs.emplace_back();
       for (const FilterDescription& filter : filters_of(study_.controllers[k], input)) {
@@ -169,6 +180,10 @@ class Resolver {
     if (realization.queued() > 0) places.queue = *states;
     *states += realization.queued();
     if (realization.time_constant) places.lag = (*states)++;
+    if (!observes) return;
+    places.estimate = *states;
+    places.estimates = study_.controllers[k].observer.order();
+    *states += places.estimates;
   }
 
   /// A sampled controller must not read accelerations and forces: its output determines them at the
@@ -181,8 +196,8 @@ class Resolver {
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))
         throw InputError({study_.controllers[k].where, element(k),
-                          "a controller with sample_time, filter or derivative_filter cannot read "
-                          "accelerations, forces and powers",
+                          "an observer, or a controller with sample_time, filter or "
+                          "derivative_filter, cannot read accelerations, forces and powers",
                           description.text,
                           "positions, velocities, orientations, energies and controllers"});
     };
@@ -285,7 +300,7 @@ const std::vector<FilterDescription>& filters_of(const ControllerDescription& de
 }
 
 bool Controller::has_start() const {
-  return states.filter >= 0 || states.held >= 0 ||
+  return states.filter >= 0 || states.held >= 0 || states.estimate >= 0 ||
          std::any_of(states.inputs.begin(), states.inputs.end(),
                      [](const std::vector<FilterPlace>& chain) { return !chain.empty(); });
 }
@@ -298,7 +313,8 @@ std::vector<StatePlace> Controller::places(int queued) const {
   for (const StatePlace& place :
        {StatePlace{states.filter, 1, "filter"}, StatePlace{states.last, 1, "last_error"},
         StatePlace{states.held, 1, "held"}, StatePlace{states.computed, 1, "computed"},
-        StatePlace{states.queue, queued, "queue"}, StatePlace{states.lag, 1, "lag"}})
+        StatePlace{states.queue, queued, "queue"}, StatePlace{states.lag, 1, "lag"},
+        StatePlace{states.estimate, states.estimates, "estimate"}})
     all.push_back(place);
   return all;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "control/joint_observer.h"
 #include "control/reference.h"
 #include "control/shaped_input.h"
 #include "control/signal.h"
@@ -25,6 +26,7 @@ struct ControllerConstants {
   std::vector<T> gains;                  ///< kStateFeedback: one per term
   std::vector<Reference<T>> references;  ///< kStateFeedback: one per term
   ShapedInput<T> shape;                  ///< kBasis
+  JointObserver<T> observer;             ///< kObserver
   /// Numbers of ControlRealization; zero if absent.
   Bounds<T> i_clamp, output_limit, rate_limit;
   T derivative_filter{0.0}, time_constant{0.0};
@@ -89,6 +91,8 @@ void controller_constants(const ControllerDescription& description,
       c.filters[k].push_back(section_of(filter, realization.sample_time, parameters));
   }
   if (description.kind->input == ControlInput::kShape) c.shape.set(description.basis, parameters);
+  if (description.kind->input == ControlInput::kObserved)
+    c.observer = joint_observer(description.observer, realization.sample_time, parameters);
 }
 template <class T>
 ControllerConstants<T> controller_constants(const ControllerDescription& description,
@@ -102,6 +106,9 @@ ControllerConstants<T> controller_constants(const ControllerDescription& descrip
 /// none. Gains may be anything.
 std::string find_impossible(const ControllerDescription& description,
                             const ControllerConstants<double>& constants);
+/// The same of the numbers of an observer.
+std::string find_impossible_observer(const ControllerDescription& description,
+                                     const std::vector<double>& parameters);
 /// The same of the numbers of its filters, at these values of all named parameters.
 std::string find_impossible_filter(const ControllerDescription& description,
                                    const std::vector<double>& parameters);
@@ -120,7 +127,9 @@ struct ControllerStates {
   int computed = -1;  ///< sampled with a rate_limit: the output of the last sample
   /// sampled: the first of the waiting outputs, whose number is ControlRealization::queued()
   int queue = -1;
-  int lag = -1;  ///< the effort after the lag of the drive
+  int lag = -1;       ///< the effort after the lag of the drive
+  int estimate = -1;  ///< kObserver: the first of its estimates
+  int estimates = 0;  ///< and their number
 };
 
 /// Some of the extra states of a controller.
@@ -132,7 +141,9 @@ struct StatePlace {
 /// A controller with its names resolved to indices; ControlLaw describes the laws.
 struct Controller {
   ControllerKind kind = ControllerKind::kPid;
-  Signal input, input_rate;  ///< only if kind->has_error(); input_rate is empty if it is not needed
+  /// only if kind->has_error(), `input` also of kObserver; input_rate is empty if it is not needed
+  Signal input, input_rate;
+  std::vector<int> efforts;      ///< kObserver: the controllers whose outputs it counts
   bool has_error_rate = false;   ///< whether the rate of the error is needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
   int pair = -1,

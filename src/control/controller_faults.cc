@@ -1,5 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 // Numbers of controllers that are impossible at a design.
+#include <string>
+#include <vector>
+
 #include "control/controller.h"
 #include "description/motion_study.h"
 #include "math/arrays.h"
@@ -73,6 +76,23 @@ std::string find_impossible(const ControllerDescription& description,
             (realization.tracking_time ? "tracking_time is " : "tracking_time, p / i, is ") +
             to_decimal(constants.tracking / constants.pid.i) + ", it must be positive";
   return fault;
+}
+
+std::string find_impossible_observer(const ControllerDescription& description,
+                                     const std::vector<double>& parameters) {
+  const ObserverDescription& observer = description.observer;
+  const struct {
+    const char* name;
+    const Quantity* of;
+  } numbers[] = {{"inertia", &observer.inertia},
+                 {"bandwidth", observer.bandwidth ? &*observer.bandwidth : nullptr},
+                 {"process", observer.process ? &*observer.process : nullptr},
+                 {"measurement", observer.measurement ? &*observer.measurement : nullptr}};
+  for (const auto& number : numbers)
+    if (number.of && !(number.of->at(parameters) > 0.0))
+      return "controllers." + description.name + "." + number.name + " is " +
+             to_decimal(number.of->at(parameters)) + ", it must be positive";
+  return "";
 }
 
 std::string find_impossible_filter(const ControllerDescription& description,

@@ -27,10 +27,15 @@ struct LinearMeasure {
   /// How many of the poles count, those that decide first; a pair counts twice, so that each place
   /// is continuous where a pair becomes two real poles.
   static constexpr int kPoles = 6;
+  /// How many of the crossings or peaks of a loop count.
+  static constexpr int kCrossings = 3;
   bool is_of_poles() const { return kind <= Kind::kRadius; }
-  int places() const { return is_of_poles() ? kPoles : 1; }
+  int places() const { return is_of_poles() ? kPoles : kind == Kind::kBandwidth ? 1 : kCrossings; }
   /// Whether the smallest of the numbers counts, not the largest.
-  bool counts_smallest() const { return kind == Kind::kDampingRatio; }
+  bool counts_smallest() const {
+    return kind == Kind::kDampingRatio || kind == Kind::kGainMargin || kind == Kind::kPhaseMargin ||
+           kind == Kind::kDelayMargin;
+  }
 };
 
 /// The kinds as files name them, in their order: three of poles, then those of loops.

@@ -11,6 +11,7 @@
 
 #include "description/control_realization.h"
 #include "description/expression.h"
+#include "description/joint_observer.h"
 #include "description/loss_law.h"
 #include "description/reference.h"
 #include "description/signal.h"
@@ -58,7 +59,7 @@ struct FeedbackTerm {
 struct ControllerDescription {
   std::string name;
   ControllerKind kind = ControllerKind::kPid;
-  SignalDescription input;        ///< only if kind->has_error()
+  SignalDescription input;        ///< only if kind->has_error(), or kObserver
   ReferenceDescription setpoint;  ///< only if kind->has_error()
   /// only if kind->has_error(): of the input, in the order in which it passes them
   std::vector<FilterDescription> filters;
@@ -71,6 +72,7 @@ struct ControllerDescription {
   ReferenceDescription feedforward;    ///< kStateFeedback
   std::vector<FeedbackTerm> feedback;  ///< kStateFeedback
   BasisDescription basis;              ///< kBasis
+  ObserverDescription observer;        ///< kObserver
   ControlRealization realization;      ///< how a robot runs it
   SourceLocation where;
 

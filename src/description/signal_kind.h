@@ -38,6 +38,9 @@ enum class SignalKind {
   kControllerSetpointAcceleration,
   kControllerIntegral,
   kControllerOutput,
+  kObservedPosition,  ///< estimates of an observer; theory (49a)
+  kObservedVelocity,
+  kObservedDisturbance,
   kLinkPosition,
   kLinkVelocity,
   kLinkAcceleration,

@@ -170,6 +170,14 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry(
         {K::kControllerOutput, Of::kController, "output", "Q", nullptr, Needs::kControl},
         [](const auto& view, const auto& of) { return controller_output(view, of.controller); }),
+    signal_entry({K::kObservedPosition, Of::kController, "position", "q", nullptr, Needs::kControl},
+                 [](const auto& view, const auto& of) { return estimate(view, of.controller, 0); }),
+    signal_entry(
+        {K::kObservedVelocity, Of::kController, "velocity", "q/s", nullptr, Needs::kControl},
+        [](const auto& view, const auto& of) { return estimate(view, of.controller, 1); }),
+    signal_entry(
+        {K::kObservedDisturbance, Of::kController, "disturbance", "Q", nullptr, Needs::kControl},
+        [](const auto& view, const auto& of) { return estimate(view, of.controller, 2); }),
     signal_entry({K::kLinkPosition, Of::kLink, "position", "m", nullptr, Needs::kMotion,
                   K::kLinkVelocity, Shape::kVector},
                  [](const auto& view, const auto& of) { return link_position(view, of); }),

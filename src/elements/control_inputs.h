@@ -112,4 +112,18 @@ void filter_residual(const StateView<T>& view, int controller, const Set& set) {
   }
 }
 
+// The observer of a joint, theory (49a).
+
+/// Its k-th estimate: position, velocity, disturbance.
+template <class T>
+T estimate(const StateView<T>& view, int controller, int k) {
+  return view.state->s[view.controller(controller).states.estimate + k];
+}
+
+/// e = y - x of (49a).
+template <class T>
+T innovation(const StateView<T>& view, int controller) {
+  return signal_value(view, view.controller(controller).input) - estimate(view, controller, 0);
+}
+
 }  // namespace codesign

@@ -123,6 +123,7 @@ ControlValues<T> control_values(const StateView<T>& view, int controller) {
   if (law.input == ControlInput::kFeedback) x.given = state_feedback(view, controller);
   if (law.input == ControlInput::kShape)
     x.given = view.controller_numbers(controller).shape.at(view.state->t).value;
+  if (law.input == ControlInput::kObserved) x.given = innovation(view, controller);
   return x;
 }
 
@@ -203,6 +204,22 @@ T lag_rate(const StateView<T>& view, int controller) {
   return saturate(rate, view.controller_numbers(controller).rate_limit).value;
 }
 
+/// The rates of an observer's estimates, theory (49a). @param set (state, rate)
+template <class T, class Set>
+void observer_residual(const StateView<T>& view, int controller, const Set& set) {
+  const Controller& resolved = view.controller(controller);
+  const JointObserver<T>& k = view.controller_numbers(controller).observer;
+  const int first = resolved.states.estimate;
+  const bool is_sampled = realization_of(view, controller).is_sampled();
+  const T e = is_sampled ? T(0.0) : innovation(view, controller);
+  T effort(0.0);
+  for (const int other : resolved.efforts) effort += controller_output(view, other);
+  if (resolved.states.estimates == 3) effort += estimate(view, controller, 2);
+  set(first, T(estimate(view, controller, 1) + k.gains[0] * e));
+  set(first + 1, T(effort / k.inertia + k.gains[1] * e));
+  if (resolved.states.estimates == 3) set(first + 2, T(k.inertia * k.gains[2] * e));
+}
+
 /// Sets the rows of a controller's states to sigma - s'; nothing for controllers without a state.
 template <class T>
 void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G) {
@@ -223,6 +240,7 @@ void controller_residual(const StateView<T>& view, std::size_t c, VectorX<T>* G)
   if (states.computed >= 0) set(states.computed, T(0.0));
   for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, T(0.0));
   if (states.lag >= 0) set(states.lag, lag_rate(view, controller));
+  if (states.estimate >= 0) observer_residual(view, controller, set);
 }
 
 }  // namespace codesign

@@ -108,11 +108,34 @@ T within_rate(const StateView<T>& view, int controller, bool is_first, const T& 
   return next;
 }
 
+/// The innovation of an observer at a sample, by which it corrects its estimates in `s`, theory
+/// (49a). At the start, `is_first`, they are those of rest in the measured position; 0.
+template <class T>
+T sample_observer(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
+  const Controller& resolved = view.controller(controller);
+  const JointObserver<T>& k = view.controller_numbers(controller).observer;
+  const int first = resolved.states.estimate;
+  const T measured = signal_value(view, resolved.input);
+  if (is_first) {
+    (*s)[first] = measured;
+    for (int other = 1; other < resolved.states.estimates; ++other) (*s)[first + other] = T(0.0);
+    return T(0.0);
+  }
+  const T e = measured - (*s)[first];
+  for (int other = 0; other < resolved.states.estimates; ++other) {
+    const T unit = other == 2 ? k.inertia : T(1.0);
+    (*s)[first + other] += T(unit * k.gains[to_index(other)] * e);
+  }
+  return e;
+}
+
 /// The output of a controller at a sample, within its limit; updates its memory in `s`. At the
 /// start of a continuous controller, `is_first`, its filters are set at rest; 0.
 /// @param s of the loaded state itself.
 template <class T>
 T sample_controller(const StateView<T>& view, int controller, bool is_first, VectorX<T>* s) {
+  if (view.controller(controller).states.estimate >= 0)
+    return sample_observer(view, controller, is_first, s);
   if (is_first) begin_filters(view, controller, s);
   if (!realization_of(view, controller).is_sampled()) {
     const int filter = view.controller(controller).states.filter;

@@ -68,16 +68,18 @@ constexpr ControlLaw kControlTable[] = {
     pd_gravity_law(),
     pid_law(),
     make_row("state_feedback", {as_given, as_given}, ControlInput::kFeedback),
+    make_row("observer", {as_given, as_given}, ControlInput::kObserved),
 };
 
 }  // namespace
 
 static_assert(std::string_view(kControlTable[0].name) == "basis" &&
-                  std::string_view(kControlTable[4].name) == "state_feedback",
+                  std::string_view(kControlTable[5].name) == "observer",
               "the constants below count rows: append new ones");
 const ControllerKind ControllerKind::kBasis{kControlTable[0]},
     ControllerKind::kComputedTorque{kControlTable[1]}, ControllerKind::kPdGravity{kControlTable[2]},
-    ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]};
+    ControllerKind::kPid{kControlTable[3]}, ControllerKind::kStateFeedback{kControlTable[4]},
+    ControllerKind::kObserver{kControlTable[5]};
 
 std::vector<ControllerKind> control_laws() {
   return std::vector<ControllerKind>(std::begin(kControlTable), std::end(kControlTable));

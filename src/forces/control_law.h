@@ -85,7 +85,8 @@ struct ControlValues {
           0.0};    ///< e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
   T clamped{0.0};  ///< k_i times the integral within i_clamp; the integral is then zero
   T load{0.0};     ///< inverse dynamics, see ControlLoad [N m or N]
-  T given{0.0};    ///< u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), or the shape u(t) of (C8)
+  /// u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), the shape u(t) of (C8), or e of (49a)
+  T given{0.0};
 
   /// p e + i s + d e' of (C3).
   T pid() const { return gains.output(error, integral, error_rate) + clamped; }
@@ -101,7 +102,8 @@ enum class ControlInput {
   kSignal,       ///< `input`, `setpoint` and `gains`: error, integral, rate
   kOwnPosition,  ///< `setpoint` and `gains`; the input is the position of the joint that it drives
   kFeedback,     ///< `feedback` and `feedforward`: given
-  kShape         ///< `shape` and its coefficients, a function of time only: given
+  kShape,        ///< `shape` and its coefficients, a function of time only: given
+  kObserved      ///< the measured position of a joint: given is the innovation of an observer
 };
 
 /// Inverse dynamics of the tree that hangs on the driven joint.
@@ -140,7 +142,8 @@ class ControllerKind : public RowReference<ControlLaw> {
       /// inverse dynamics of the tree at the acceleration setpoint'' + d de/dt + p e
       kComputedTorque,
       kStateFeedback,  ///< feedforward - sum gain (signal - reference)
-      kBasis;          ///< a shaped input, a function of time only
+      kBasis,          ///< a shaped input, a function of time only
+      kObserver;       ///< the innovation of an observer of a joint
 };
 
 /// The library's control laws, by name.

@@ -100,6 +100,8 @@ Status check_design(const CompiledSystem& system, const Equations<double>& equat
     std::string fault =
         find_impossible(controllers[c], equations.formulas().view().design.controllers[c]);
     if (fault.empty()) fault = find_impossible_filter(controllers[c], equations.parameters());
+    if (fault.empty() && controllers[c].kind->input == ControlInput::kObserved)
+      fault = find_impossible_observer(controllers[c], equations.parameters());
     if (!fault.empty()) return {StatusCode::kInvalidDesign, 0.0, fault};
   }
   if (std::string fault = find_impossible_scale(system, equations.formulas().view().design);

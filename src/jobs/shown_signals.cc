@@ -61,8 +61,11 @@ std::vector<std::string> further_signals(const RobotDescription& robot, const Mo
   std::vector<std::string> texts;
   for (const ControllerDescription& controller : study.controllers) {
     if (!controller.output.empty()) texts.push_back(controller.output + "/effort");
-    if (!controller.kind->has_error()) continue;
-    for (const char* quantity : {"/setpoint", "/error"})
+    if (controller.kind->has_error())
+      for (const char* quantity : {"/setpoint", "/error"})
+        texts.push_back(controller.name + quantity);
+    if (controller.kind->input != ControlInput::kObserved) continue;
+    for (const char* quantity : {"/position", "/velocity", "/disturbance"})
       texts.push_back(controller.name + quantity);
   }
   for (const GivenMotion& motion : study.motion) texts.push_back(motion.joint + "/effort");
@@ -108,10 +111,13 @@ std::string unit_of(const SignalDescription& signal, const RobotDescription& rob
     return find_quantity(element->kind, term.quantity)->unit;
   if (const ControllerDescription* controller = find_named(controllers, term.object)) {
     const SignalFacts* facts = find_quantity(SignalOwner::kController, term.quantity);
-    return unit_of(*facts, find_named(robot.joints, controller->output),
-                   term.quantity == "output" || controller->input.terms.empty()
-                       ? ""
-                       : unit_of(controller->input, robot, controllers));
+    const bool observes = controller->kind->input == ControlInput::kObserved;
+    return unit_of(
+        *facts,
+        find_named(robot.joints, observes ? controller->observer.joint : controller->output),
+        term.quantity == "output" || controller->input.terms.empty()
+            ? ""
+            : unit_of(controller->input, robot, controllers));
   }
   // A joint and a link may share a name; only a joint's reactions have components, too.
   const JointDescription* joint = find_named(robot.joints, term.object);

@@ -51,14 +51,27 @@ Eigen::VectorXd step_in(double c, const FreeMotions& free, const Eigen::VectorXd
   return free.N * least_norm(matrix).solve(transposed_product(free.N, a)).col(0);
 }
 
-Status not_found(const RestingMechanism& mechanism, const std::string& why) {
-  const Eigen::VectorXd a = mechanism.acceleration();
-  int fastest = 0;
-  const double largest = a.cwiseAbs().maxCoeff(&fastest);
+/// The largest entry of a vector and the coordinate that it belongs to.
+std::string largest_of(const Eigen::VectorXd& values, const std::string& unit,
+                       const RestingMechanism& mechanism) {
+  int place = 0;
+  const double largest = values.cwiseAbs().maxCoeff(&place);
+  return readable(largest, 3) + unit + ", of " +
+         linear_state_names(mechanism.system(), {place}).front();
+}
+
+Status not_found(RestingMechanism* mechanism, const std::string& why) {
+  const std::string acceleration = largest_of(mechanism->acceleration(), " per s^2", *mechanism);
+  Eigen::MatrixXd N;
+  if (!mechanism->linearize(&N).ok() || N.cols() == 0)
+    return {StatusCode::kNoEquilibrium, 0.0,
+            "no posture at rest was found near the start: " + why +
+                "; there the largest acceleration of a coordinate is " + acceleration};
   return {StatusCode::kNoEquilibrium, 0.0,
           "no posture at rest was found near the start: " + why +
-              "; there the largest acceleration of a coordinate is " + readable(largest, 3) +
-              " per s^2, of " + linear_state_names(mechanism.system(), {fastest}).front()};
+              "; there the largest acceleration of a coordinate is " + acceleration +
+              ", and the largest effort that nothing balances " +
+              largest_of(mechanism->unbalanced_efforts(N), " N or N m", *mechanism)};
 }
 
 /// Whether an acceleration is no more than rounding leaves. @param stiffest largest entry of A.
@@ -88,14 +101,32 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
       step = step_in(c, *free, a);
       if (step.cwiseAbs().maxCoeff() <= allowed) status = mechanism->go_to(mechanism->q() + step);
     }
-    if (!status.ok()) return not_found(*mechanism, "the way ends, " + status.cause);
+    if (!status.ok()) return not_found(mechanism, "the way ends, " + status.cause);
     if (tries == 1 && step.cwiseAbs().maxCoeff() <= smallest)
       return find_free_motions(mechanism, free);
     // A step that goes back, as across the edge of a stop, must not be followed by the same again.
     if (last.size() == step.size() && last.dot(step) < 0.0) allowed *= 0.5;
     last = step;
   }
-  return not_found(*mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
+  return not_found(mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
+}
+
+/// A sampled observer whose model does not rest moves between its samples.
+Status check_estimates(const RestingMechanism& mechanism, const MotionStudy& study) {
+  constexpr double kStill = 1e-8;  // [q/s]
+  const std::vector<double> estimates = mechanism.estimates_of_controllers();
+  std::size_t place = 0;
+  for (const ControllerDescription& controller : study.controllers) {
+    if (controller.kind->input != ControlInput::kObserved) continue;
+    const double speed = estimates[place + 1];
+    place += to_index(controller.observer.order());
+    if (controller.realization.is_sampled() && std::abs(speed) > kStill)
+      return {StatusCode::kNoEquilibrium, 0.0,
+              "the estimates of the sampled observer \"" + controller.name +
+                  "\" move between samples at rest: its model does not know the effort that holds "
+                  "the joint; give it disturbance: true"};
+  }
+  return {};
 }
 
 }  // namespace
@@ -117,15 +148,20 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   if (!found.status.ok()) return found;
   const double longest = kLongest * system.study().duration;
   FreeMotions free;
-  found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
+  // Efforts that follow estimates do not lead to a rest before these have settled.
+  if (!mechanism.has_estimates())
+    found.status = creep(longest * longest, cancel, &mechanism, &free, &found.steps);
   // Without its integrals the mechanism may have no posture at rest.
   if (mechanism.integrals().size() > 0 && found.status.code != StatusCode::kCancelled)
     found.status =
         rest_without_error(&mechanism, parameters, system.whole_study(), cancel, &found.steps);
   mechanism.observe(&observer, &found.frame);
+  if (found.status.ok()) found.status = check_estimates(mechanism, system.study());
   if (!found.status.ok()) return found;
   found.state = mechanism.state();
   found.integrals = mechanism.integral_of_controllers();
+  const std::vector<double> estimates = mechanism.estimates_of_controllers();
+  found.integrals.insert(found.integrals.end(), estimates.begin(), estimates.end());
   found.linear = linear_model({&system, parameters, question, true, found.integrals},
                               mechanism.state(), mechanism.theta());
   found.status = found.linear.status;

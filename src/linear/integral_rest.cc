@@ -24,7 +24,7 @@ Status not_found(const RestingMechanism& mechanism) {
   const Eigen::VectorXd errors = mechanism.errors(), a = mechanism.acceleration();
   return {StatusCode::kNoEquilibrium, 0.0,
           "no posture at rest was found near the start in which the errors of all controllers with "
-          "an integral vanish; the largest error left is " +
+          "an integral vanish, and the rates of all estimates; the largest error left is " +
               readable(errors.cwiseAbs().maxCoeff(), 3) + ", the largest acceleration " +
               readable(a.cwiseAbs().maxCoeff(), 3) + " per s^2"};
 }

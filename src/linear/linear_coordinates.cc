@@ -134,7 +134,7 @@ std::vector<std::string> linear_state_names(const CompiledSystem& system,
          controller.places(system.study().controllers[c].realization.queued()))
       for (int k = 0; place.first >= 0 && k < place.count; ++k) {
         const std::string name = place.name;
-        const bool is_list = name == "queue" || name == "feedback_filter";
+        const bool is_list = name == "queue" || name == "feedback_filter" || name == "estimate";
         const int number = name == "feedback_filter" ? filters++ : k;
         names[first + to_index(place.first + k)] =
             of + name + (is_list ? "[" + std::to_string(number) + "]" : "");

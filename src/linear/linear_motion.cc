@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "equations/formulas.h"
+#include "linear/sampled_motion.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -57,6 +58,23 @@ Status LinearMotion::solve_rates() {
           "the equations of motion are not finite at the state that is linearized"};
 }
 
+// What sampled controllers hold follows from the estimates that they read.
+void LinearMotion::settle_estimates(const std::vector<double>& integrals) {
+  const std::vector<Controller>& controllers = system_.controllers();
+  const std::size_t first = study_.disturbances.size();
+  std::size_t next = first;
+  for (const Controller& controller : controllers)
+    for (int k = 0; k < controller.states.estimates && next < integrals.size(); ++k)
+      state_.s[controller.states.estimate + k] = integrals[next++];
+  if (next == first) return;
+  for (std::size_t c = 0; c < controllers.size(); ++c) {
+    const ControlRealization& realization = system_.study().controllers[c].realization;
+    if (realization.is_sampled() && controllers[c].states.estimate < 0)
+      equations_.jump(
+          {{ControlEvent::Kind::kSample, static_cast<int>(c), first_sample(realization)}}, &state_);
+  }
+}
+
 // Outputs of cascades follow each other: as many rounds as there are controllers settle all.
 void LinearMotion::settle(const std::vector<double>& integrals) {
   const std::vector<Controller>& controllers = system_.controllers();
@@ -65,6 +83,7 @@ void LinearMotion::settle(const std::vector<double>& integrals) {
       if (controllers[c].state >= 0)
         state_.s[controllers[c].state] = c < integrals.size() ? integrals[c] : 0.0;
     equations_.begin_states(&state_);
+    settle_estimates(integrals);
     for (std::size_t c = 0; c < controllers.size(); ++c) {
       const ControllerStates& states = controllers[c].states;
       const int queued = system_.study().controllers[c].realization.queued();

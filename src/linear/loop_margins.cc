@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "linear/poles.h"
 #include "math/arrays.h"
@@ -18,7 +19,7 @@ constexpr int kPerDecade = 100;
 constexpr double kBesideRest = 1e-3;  // of the lowest frequency
 constexpr double kBeyond = 1e3;       // the slowest and the fastest pole
 constexpr int kBisections = 200;
-constexpr double kPole = 1e9;  // a value that rounding makes of infinity
+constexpr double kPole = 1e9;  // a value that rounding makes of infinity; of zero its inverse
 
 /// The frequencies of one pole and around it, where the response turns by half.
 void add_around(const Complex& pole, std::vector<double>* grid) {
@@ -97,43 +98,56 @@ AtFrequency peak_between(double low, double high, const Function& function) {
   return at_a > at_b ? AtFrequency{at_a, a} : AtFrequency{at_b, b};
 }
 
+/// The peaks on a grid, the highest one first; an end of the grid only if nothing is higher.
 template <class Function>
-AtFrequency largest(const std::vector<double>& grid, const Function& function) {
+std::vector<AtFrequency> peaks(const std::vector<double>& grid, const Function& function) {
+  constexpr std::size_t kRefined = 8;
   std::vector<double> values;
   values.reserve(grid.size());
   for (const double w : grid) values.push_back(function(w));
-  AtFrequency best{values.front(), grid.front()};
-  for (std::size_t k = 0; k < grid.size(); ++k) {
-    if (values[k] > best.value) best = {values[k], grid[k]};
-    if (k == 0 || k + 1 == grid.size() || values[k] < values[k - 1] || values[k] < values[k + 1])
-      continue;
+  std::vector<std::size_t> places;
+  for (std::size_t k = 0; k < grid.size(); ++k)
+    if ((k == 0 || values[k] > values[k - 1]) &&
+        (k + 1 == grid.size() || values[k] >= values[k + 1]))
+      places.push_back(k);
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t one, std::size_t other) { return values[one] > values[other]; });
+  if (places.size() > kRefined) places.resize(kRefined);
+  std::vector<AtFrequency> found;
+  for (const std::size_t k : places) {
+    const bool is_end = k == 0 || k + 1 == grid.size();
+    if (is_end && !found.empty()) continue;
+    found.push_back({values[k], grid[k]});
+    if (is_end) continue;
     const AtFrequency peak = peak_between(grid[k - 1], grid[k + 1], function);
-    if (peak.value > best.value) best = peak;
+    if (peak.value > values[k]) found.back() = peak;
   }
-  return best;
+  return found;
 }
 
-void take_smaller(double value, double frequency, std::optional<AtFrequency>* best) {
-  if (!*best || value < (*best)->value) *best = AtFrequency{value, frequency};
+/// Sorts numbers by their size, the one that decides first. @returns it.
+template <class Decides>
+std::optional<AtFrequency> sort(std::vector<AtFrequency>* all, const Decides& decides) {
+  std::stable_sort(all->begin(), all->end(), [&](const auto& one, const auto& other) {
+    return decides(one.value, other.value);
+  });
+  return all->empty() ? std::nullopt : std::optional<AtFrequency>(all->front());
 }
 
-/// Takes a crossing of the negative real axis, but not one through infinity, at a pole.
-void take_gain(const Complex& L, double frequency, LoopMargins* margins) {
-  if (!(L.real() < 0.0 && L.real() > -kPole)) return;
+/// Takes a crossing of the negative real axis, but not one through infinity, at a pole, or through
+/// zero.
+void take_gain(const Complex& L, double frequency, LoopMargins::All* all) {
+  if (!(L.real() < -1.0 / kPole && L.real() > -kPole)) return;
   const double factor = -1.0 / L.real();
-  if (factor >= 1.0)
-    take_smaller(factor, frequency, &margins->gain_margin);
-  else if (!margins->gain_reduction || factor > margins->gain_reduction->value)
-    margins->gain_reduction = AtFrequency{factor, frequency};
+  (factor >= 1.0 ? all->gains : all->reductions).push_back({factor, frequency});
 }
 
 /// Takes a crossing of the unit circle.
-void take_phase(const Complex& L, double frequency, LoopMargins* margins) {
+void take_phase(const Complex& L, double frequency, LoopMargins::All* all) {
   const double beyond = std::arg(-L);  // from -1, in (-pi, pi]
-  if (!margins->phase_margin || std::abs(beyond) < std::abs(margins->phase_margin->value))
-    margins->phase_margin = AtFrequency{beyond, frequency};
+  all->phases.push_back({std::abs(beyond), frequency});
   const double lag = beyond >= 0.0 ? beyond : beyond + 2.0 * kHalfTurn;
-  take_smaller(lag / frequency, frequency, &margins->delay_margin);
+  all->delays.push_back({lag / frequency, frequency});
 }
 
 }  // namespace
@@ -184,31 +198,37 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
   std::vector<Complex> L;
   L.reserve(grid_.size());
   for (const double w : grid_) L.push_back(at(w));
-  take_gain(at(0.0).real(), 0.0, margins);
-  if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), margins);
+  take_gain(at(0.0).real(), 0.0, &margins->all);
+  if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), &margins->all);
   for (std::size_t k = 0; k + 1 < grid_.size(); ++k) {
     const bool is_end = period_ > 0.0 && k + 2 == grid_.size();
     if (!is_end && (L[k].imag() < 0.0) != (L[k + 1].imag() < 0.0) &&
         (L[k].real() < 0.0 || L[k + 1].real() < 0.0)) {
       const double w =
           zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return at(at_w).imag(); });
-      take_gain(at(w), w, margins);
+      take_gain(at(w), w, &margins->all);
     }
     if ((std::abs(L[k]) < 1.0) == (std::abs(L[k + 1]) < 1.0)) continue;
     const double w =
         zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return std::abs(at(at_w)) - 1.0; });
-    take_phase(at(w), w, margins);
+    take_phase(at(w), w, &margins->all);
   }
+  margins->gain_margin = sort(&margins->all.gains, std::less<>());
+  margins->gain_reduction = sort(&margins->all.reductions, std::greater<>());
+  margins->phase_margin = sort(&margins->all.phases, std::less<>());
+  margins->delay_margin = sort(&margins->all.delays, std::less<>());
 }
 
 // At infinite frequency L is its direct part.
 void OpenLoop::find_peaks(LoopMargins* margins) const {
   const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
-  margins->sensitivity = largest(grid_, [&](double w) { return std::abs(1.0 + closed_at(w)); });
-  margins->complementary = largest(grid_, complementary);
+  LoopMargins::All& all = margins->all;
+  all.sensitivities = peaks(grid_, [&](double w) { return std::abs(1.0 + closed_at(w)); });
+  all.complementaries = peaks(grid_, complementary);
   const double far = functions_->closed.at_infinity();
-  if (period_ == 0.0 && std::abs(1.0 + far) > margins->sensitivity->value)
-    margins->sensitivity = AtFrequency{std::abs(1.0 + far), grid_.back()};
+  if (period_ == 0.0) all.sensitivities.push_back({std::abs(1.0 + far), grid_.back()});
+  margins->sensitivity = sort(&all.sensitivities, std::greater<>());
+  margins->complementary = sort(&all.complementaries, std::greater<>());
   // A motion that the loop does not see, such as the position of a speed loop, is a pole at w = 0.
   margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
   const double level = std::sqrt(0.5) * complementary(margins->rest);
@@ -228,14 +248,15 @@ LoopMargins OpenLoop::margins() const {
   margins.is_stable = is_stable_;
   find_crossings(&margins);
   if (is_stable_) {
-    if (margins.phase_margin) margins.phase_margin->value = std::abs(margins.phase_margin->value);
     find_peaks(&margins);
     return margins;
   }
   LoopMargins unstable;
   unstable.is_stable = false;
-  if (margins.gain_reduction && is_stable_with(kBelow * margins.gain_reduction->value))
+  if (margins.gain_reduction && is_stable_with(kBelow * margins.gain_reduction->value)) {
     unstable.gain_reduction = margins.gain_reduction;
+    unstable.all.reductions = {*margins.gain_reduction};
+  }
   return unstable;
 }
 

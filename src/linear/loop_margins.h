@@ -35,6 +35,12 @@ struct LoopMargins {
   /// [rad/s] at which T is what it is at rest, for the bandwidth: 0, or a frequency far below all
   /// poles if T is not finite there
   double rest = 0.0;
+  /// All crossings and peaks of each kind, the one that decides first: the first ones are the
+  /// numbers above.
+  struct All {
+    std::vector<AtFrequency> gains, reductions, phases, delays, sensitivities, complementaries;
+  };
+  All all{};
 };
 
 /// The loop of a controller as a transfer function.

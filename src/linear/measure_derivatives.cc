@@ -15,9 +15,6 @@ namespace {
 using ComplexNumber = std::complex<double>;
 using Kind = LinearMeasure::Kind;
 
-// Poles that meet in one motion, whose vectors are then parallel, have no derivatives; those of
-// machines alike that move apart have.
-constexpr double kOneMotion = 1e4;
 constexpr double kTurn = 6.283185307179586;  // [rad]
 
 /// The transfer function H of a closed loop at a frequency: value, derivatives along the direction
@@ -128,6 +125,86 @@ double lower_damping(const ComplexNumber& s) {
   return s.real() == 0.0 ? 0.0 : -s.real() / std::abs(s);
 }
 
+/// The eigenvalue of a pole, and how far rounding moves it.
+ComplexNumber eigenvalue_of(const Pole& pole, double period) {
+  return period > 0.0 ? std::exp(pole.value * period) : pole.value;
+}
+bool meets_its_pair(const Pole& pole, double period) {
+  const ComplexNumber value = eigenvalue_of(pole, period);
+  const double uncertainty = pole.uncertainty * (period > 0.0 ? std::abs(value) * period : 1.0);
+  return pole.is_pair && std::abs(value.imag()) <= uncertainty;
+}
+
+/// Eigenvalues about a centre, and the circle between them and all others.
+struct Circle {
+  ComplexNumber centre;
+  double count = 0.0, inner = 0.0, outer = 0.0;
+};
+
+Circle circle_of(const PoleCluster& cluster, const std::vector<Pole>& poles, double period) {
+  std::vector<ComplexNumber> inside, outside;
+  if (period > 0.0) outside.emplace_back(0.0);  // where ln z ends, and poles that are left out
+  bool has_pairs = false;
+  for (const std::size_t member : cluster.members)
+    has_pairs = has_pairs || meets_its_pair(poles[member], period);
+  for (std::size_t k = 0; k < poles.size(); ++k) {
+    const ComplexNumber value = eigenvalue_of(poles[k], period);
+    const bool is_member =
+        std::find(cluster.members.begin(), cluster.members.end(), k) != cluster.members.end();
+    (is_member ? inside : outside).push_back(value);
+    if (poles[k].is_pair) (is_member && has_pairs ? inside : outside).push_back(std::conj(value));
+  }
+  Circle circle;
+  circle.count = static_cast<double>(inside.size());
+  circle.centre = std::accumulate(inside.begin(), inside.end(), ComplexNumber(0.0)) / circle.count;
+  for (const ComplexNumber& value : inside)
+    circle.inner = std::max(circle.inner, std::abs(value - circle.centre));
+  circle.outer = 4.0 * std::max(circle.inner, std::abs(circle.centre));
+  if (circle.outer == 0.0) circle.outer = 1.0;
+  for (const ComplexNumber& value : outside)
+    circle.outer = std::min(circle.outer, std::abs(value - circle.centre));
+  return circle;
+}
+
+/// How the mean of a cluster moves, as s. NaN where the circle does not tell it from others.
+ComplexNumber mean_change(const Circle& circle, double period, const Eigen::MatrixXd& A,
+                          const Eigen::MatrixXd& change) {
+  constexpr double kApart = 2.0, kDigits = 36.0;  // e^-36 is rounding
+  if (!(circle.outer > kApart * circle.inner)) return std::numeric_limits<double>::quiet_NaN();
+  const double radius = std::max(0.25 * circle.outer, std::sqrt(circle.inner * circle.outer));
+  const double factor = std::max(circle.inner / radius, radius / circle.outer);
+  const int points = static_cast<int>(std::ceil(kDigits / -std::log(factor)));
+  const Eigen::MatrixXcd weights =
+      within_circle(A, circle.centre, radius, points, [period](const ComplexNumber& z) {
+        return period > 0.0 ? 1.0 / (z * period) : ComplexNumber(1.0);
+      });
+  return weights.transpose().cwiseProduct(change.cast<ComplexNumber>()).sum() / circle.count;
+}
+
+/// The mean of the poles of a cluster, with those of pairs where a pair meets on the real axis.
+void set_mean(const std::vector<Pole>& poles, PoleCluster* cluster) {
+  bool is_real = false;
+  double count = 0.0;
+  ComplexNumber sum = 0.0;
+  for (const std::size_t member : cluster->members) {
+    const Pole& pole = poles[member];
+    is_real = is_real || std::abs(pole.value.imag()) <= pole.uncertainty;
+    const double times = pole.is_pair ? 2.0 : 1.0;
+    count += times;
+    sum += times * pole.value;
+  }
+  cluster->value = sum / count;
+  if (is_real) cluster->value = cluster->value.real();
+}
+
+/// How a pole moves that is alone.
+ComplexNumber pole_change(const Pole& pole, double period, const Eigen::MatrixXd& change) {
+  const ComplexNumber of_eigenvalue =
+      product(pole.left.transpose(),
+              product(Eigen::MatrixXcd(change.cast<ComplexNumber>()), pole.vector))(0, 0);
+  return period > 0.0 ? of_eigenvalue / (std::exp(pole.value * period) * period) : of_eigenvalue;
+}
+
 }  // namespace
 
 std::vector<PoleCluster> ranked(const std::vector<Pole>& poles, Kind kind, double duration) {
@@ -142,10 +219,9 @@ std::vector<PoleCluster> ranked(const std::vector<Pole>& poles, Kind kind, doubl
       if (taken[other] || apart > poles[other].uncertainty + poles[k].uncertainty) continue;
       taken[other] = true;
       cluster.members.push_back(other);
-      cluster.value += poles[other].value;
       cluster.is_pair = cluster.is_pair || poles[other].is_pair;
     }
-    cluster.value /= static_cast<double>(cluster.members.size());
+    set_mean(poles, &cluster);
     clusters.push_back(std::move(cluster));
   }
   const auto decides = [kind](const PoleCluster& one, const PoleCluster& other) {
@@ -155,7 +231,8 @@ std::vector<PoleCluster> ranked(const std::vector<Pole>& poles, Kind kind, doubl
   std::stable_sort(clusters.begin(), clusters.end(), decides);
   std::vector<PoleCluster> places;
   for (const PoleCluster& cluster : clusters) {
-    const std::size_t count = cluster.members.size() * (cluster.is_pair ? 2 : 1);
+    std::size_t count = 0;
+    for (const std::size_t member : cluster.members) count += poles[member].is_pair ? 2 : 1;
     places.insert(places.end(), count, cluster);
   }
   if (!places.empty()) places.resize(LinearMeasure::kPoles, places.back());
@@ -174,21 +251,12 @@ double value_of(const PoleCluster& cluster, Kind kind, double period) {
 }
 
 double derivative_of(const PoleCluster& cluster, const std::vector<Pole>& poles, Kind kind,
-                     double period, const Eigen::MatrixXd& change) {
-  ComplexNumber moves = 0.0;
-  for (const std::size_t member : cluster.members) {
-    const Pole& pole = poles[member];
-    const bool meets = cluster.members.size() > 1 || std::abs(pole.value.imag()) < pole.uncertainty;
-    if (meets && (pole.is_pair || cluster.members.size() > 1) &&
-        !(pole.left.norm() * pole.vector.norm() < kOneMotion))
-      return std::numeric_limits<double>::quiet_NaN();
-    const ComplexNumber of_eigenvalue =
-        product(pole.left.transpose(),
-                product(Eigen::MatrixXcd(change.cast<ComplexNumber>()), pole.vector))(0, 0);
-    moves +=
-        period > 0.0 ? of_eigenvalue / (std::exp(pole.value * period) * period) : of_eigenvalue;
-  }
-  moves /= static_cast<double>(cluster.members.size());
+                     double period, const Eigen::MatrixXd& A, const Eigen::MatrixXd& change) {
+  const Pole& first = poles[cluster.members.front()];
+  const bool is_alone = cluster.members.size() == 1 && !meets_its_pair(first, period);
+  const ComplexNumber moves =
+      is_alone ? pole_change(first, period, change)
+               : mean_change(circle_of(cluster, poles, period), period, A, change);
   const ComplexNumber s = cluster.value;
   const double size = std::abs(s);
   switch (kind) {
@@ -202,28 +270,33 @@ double derivative_of(const PoleCluster& cluster, const std::vector<Pole>& poles,
   }
 }
 
-const std::optional<AtFrequency>& margin_of(const LoopMargins& margins, Kind kind) {
-  switch (kind) {
-    case Kind::kGainMargin:
-      return margins.gain_margin;
-    case Kind::kGainReduction:
-      return margins.gain_reduction;
-    case Kind::kPhaseMargin:
-      return margins.phase_margin;
-    case Kind::kDelayMargin:
-      return margins.delay_margin;
-    case Kind::kBandwidth:
-      return margins.bandwidth;
-    case Kind::kSensitivity:
-      return margins.sensitivity;
-    default:
-      return margins.complementary;
-  }
+std::vector<AtFrequency> margins_of(const LoopMargins& margins, Kind kind) {
+  const auto first_of = [&]() -> std::vector<AtFrequency> {
+    switch (kind) {
+      case Kind::kGainMargin:
+        return margins.all.gains;
+      case Kind::kGainReduction:
+        return margins.all.reductions;
+      case Kind::kPhaseMargin:
+        return margins.all.phases;
+      case Kind::kDelayMargin:
+        return margins.all.delays;
+      case Kind::kSensitivity:
+        return margins.all.sensitivities;
+      case Kind::kComplementarySensitivity:
+        return margins.all.complementaries;
+      default:
+        return margins.bandwidth ? std::vector<AtFrequency>{*margins.bandwidth}
+                                 : std::vector<AtFrequency>{};
+    }
+  };
+  std::vector<AtFrequency> all = first_of();
+  if (all.size() > LinearMeasure::kCrossings) all.resize(LinearMeasure::kCrossings);
+  return all;
 }
 
-double derivative_of(const LoopMargins& margins, Kind kind, const ComplexSpace& closed,
+double derivative_of(const AtFrequency& margin, Kind kind, double rest, const ComplexSpace& closed,
                      double period) {
-  const AtFrequency& margin = *margin_of(margins, kind);
   const Loop loop(closed, period);
   switch (kind) {
     case Kind::kGainMargin:
@@ -237,7 +310,7 @@ double derivative_of(const LoopMargins& margins, Kind kind, const ComplexSpace& 
     case Kind::kDelayMargin:
       return delay_derivative(loop, margin);
     case Kind::kBandwidth:
-      return bandwidth_derivative(loop, margin.frequency, margins.rest);
+      return bandwidth_derivative(loop, margin.frequency, rest);
     case Kind::kSensitivity:
       return peak_derivative(loop, margin, 1.0, period);
     default:

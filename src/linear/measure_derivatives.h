@@ -24,16 +24,21 @@ std::vector<PoleCluster> ranked(const std::vector<Pole>& poles, LinearMeasure::K
                                 double duration);
 /// Its number.
 double value_of(const PoleCluster& cluster, LinearMeasure::Kind kind, double period);
-/// The derivative of its number; NaN where poles meet in one motion. @param change of A.
+/// The derivative of its number: of several poles that of their mean, which exists wherever they
+/// meet; NaN if rounding does not tell them from others. @param A of the closed loops. @param
+/// change of A.
 double derivative_of(const PoleCluster& cluster, const std::vector<Pole>& poles,
-                     LinearMeasure::Kind kind, double period, const Eigen::MatrixXd& change);
+                     LinearMeasure::Kind kind, double period, const Eigen::MatrixXd& A,
+                     const Eigen::MatrixXd& change);
 
-/// A margin by the kind of a measure of loops.
-const std::optional<AtFrequency>& margin_of(const LoopMargins& margins, LinearMeasure::Kind kind);
+/// The crossings or peaks by the kind of a measure of loops, the one that decides first, at most
+/// LinearMeasure::places(); empty: there is none.
+std::vector<AtFrequency> margins_of(const LoopMargins& margins, LinearMeasure::Kind kind);
 /// The derivative of a margin of the loop with these matrices, by the implicit function theorem at
-/// its crossing, at a peak at a fixed frequency. @param closed as OpenLoop takes it, with
-/// derivatives as imaginary parts times LinearDerivatives::kStep.
-double derivative_of(const LoopMargins& margins, LinearMeasure::Kind kind,
+/// its crossing, at a peak at a fixed frequency. @param margin one of margins_of(). @param rest
+/// LoopMargins::rest. @param closed as OpenLoop takes it, with derivatives as imaginary parts times
+/// LinearDerivatives::kStep.
+double derivative_of(const AtFrequency& margin, LinearMeasure::Kind kind, double rest,
                      const ComplexSpace& closed, double period);
 
 }  // namespace codesign

@@ -38,6 +38,13 @@ void RestDerivatives::add_samples(VectorX<Number>* rows) {
     const int output = output_state(system_, event);
     for (const int state : {system_.controllers()[c].state, states.filter, states.last})
       set(state, state);
+    // A model at rest needs no correction: both are zero.
+    const double per_time = 1.0 / realization.sample_time;
+    for (int k = states.estimate; k >= 0 && k < states.estimate + states.estimates; ++k)
+      (*rows)[layout.state_column(k)] += per_time * (state_.s[k] - sampled_.s[k]);
+    for (const std::vector<FilterPlace>& chain : states.inputs)
+      for (const FilterPlace& place : chain)
+        for (int k = 0; k < place.order; ++k) set(place.state + k, place.state + k);
     set(states.held, output);
     set(states.computed, output);
     for (int k = 0; k < realization.queued(); ++k) set(states.queue + k, output);

@@ -58,9 +58,10 @@ Status RestNumbers::set_margin(const LinearMeasure& measure, const Equilibrium& 
   const ControllerLoop* const loop = loop_of(rest.linear, measure.controller);
   if (!loop->why_not.empty())
     return {StatusCode::kInvalidDesign, 0.0, of + "has no margins: " + loop->why_not};
-  const std::optional<AtFrequency>& margin = margin_of(loop->margins, measure.kind);
-  if (margin) {
-    entry->values[0] = margin->value;
+  const std::vector<AtFrequency> margins = margins_of(loop->margins, measure.kind);
+  if (!margins.empty()) {
+    for (Eigen::Index k = 0; k < entry->values.size(); ++k)
+      entry->values[k] = margins[std::min(to_index(k), margins.size() - 1)].value;
     return {};
   }
   if (!loop->margins.is_stable)
@@ -106,7 +107,7 @@ Status RestNumbers::check(const WatchedSignal& watched, const Entry& entry, doub
                 (by_parameter
                      ? " by \"" + tuned_parameter(system_.study(), to_signed(direction)).name + "\""
                      : "") +
-                ": poles meet in one motion, or a crossing of the loop is a touch"};
+                ": poles meet beside others, or a crossing of the loop is a touch"};
   if (by_parameter || std::abs(change) <= kRounding * (1.0 + std::abs(entry.values[0]))) return {};
   return {StatusCode::kNonFiniteGradient, 0.0,
           of + "depends on a position, or a reaction, that nothing determines at rest"};
@@ -128,16 +129,21 @@ Status RestNumbers::differentiate_along(std::size_t direction, const Equilibrium
     const LinearMeasure& measure = *watched.linear;
     if (!measure.is_of_poles()) {
       const LoopMargins& margins = loop_of(rest.linear, measure.controller)->margins;
-      return keep(watched, entry, 0,
-                  derivative_of(margins, measure.kind,
-                                derivatives_->loop(place_of(study, measure.controller), direction),
-                                period));
+      const std::vector<AtFrequency> all = margins_of(margins, measure.kind);
+      const ComplexSpace loop = derivatives_->loop(place_of(study, measure.controller), direction);
+      double moved = 0.0;
+      for (std::size_t k = 0; k < to_index(measure.places()); ++k) {
+        if (k < all.size()) moved = derivative_of(all[k], measure.kind, margins.rest, loop, period);
+        if (Status status = keep(watched, entry, k, moved); !status.ok()) return status;
+      }
+      return {};
     }
     if (change.size() == 0) change = kPer * derivatives_->closed(direction).A.imag();
     const std::vector<PoleCluster> places = ranked(poles, measure.kind, study.duration);
     for (std::size_t k = 0; k < places.size(); ++k)
-      if (Status status = keep(watched, entry, k,
-                               derivative_of(places[k], poles, measure.kind, period, change));
+      if (Status status = keep(
+              watched, entry, k,
+              derivative_of(places[k], poles, measure.kind, period, rest.linear.system.A, change));
           !status.ok())
         return status;
     return {};

@@ -81,6 +81,11 @@ RestingMechanism::RestingMechanism(const CompiledSystem& system,
   derivatives_.resize(system_.system->patterns());
   for (const Controller& controller : system_.system->controllers())
     if (controller.state >= 0) integrals_.push_back(controller.state);
+  for (const Controller& controller : system_.system->controllers())
+    for (int k = 0; k < controller.states.estimates; ++k) {
+      integrals_.push_back(controller.states.estimate + k);
+      has_estimates_ = true;
+    }
 }
 
 Status RestingMechanism::begin() {
@@ -123,6 +128,25 @@ std::vector<double> RestingMechanism::integral_of_controllers() const {
   std::vector<double> values;
   for (const Controller& controller : system_.system->controllers())
     values.push_back(controller.state < 0 ? 0.0 : state_.s[controller.state]);
+  return values;
+}
+
+// G at accelerations of zero; what reactions add to it is normal to all free motions.
+Eigen::VectorXd RestingMechanism::unbalanced_efforts(const Eigen::MatrixXd& N) {
+  State<double> held = state_;
+  held.z.head(layout_.n).setZero();
+  VectorX<double> G;
+  double g = 0.0;
+  motion_.equations().residual(held, &G, &g);
+  const Eigen::VectorXd efforts = -G.head(layout_.n);
+  return product(N, transposed_product(N, efforts)).col(0);
+}
+
+std::vector<double> RestingMechanism::estimates_of_controllers() const {
+  std::vector<double> values;
+  for (const Controller& controller : system_.system->controllers())
+    for (int k = 0; k < controller.states.estimates; ++k)
+      values.push_back(state_.s[controller.states.estimate + k]);
   return values;
 }
 

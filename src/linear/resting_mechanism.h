@@ -28,11 +28,18 @@ class RestingMechanism {
 
   const VectorX<double>& q() const { return state_.q; }
   Eigen::VectorXd acceleration() const { return state_.z.head(layout_.n); }
+  /// The efforts along coordinates that nothing balances in the present posture, without those that
+  /// constraints take [N or N m]. @param N of linearize().
+  Eigen::VectorXd unbalanced_efforts(const Eigen::MatrixXd& N);
   /// The states of the integrals, and their rates: the errors of their controllers.
   Eigen::VectorXd integrals() const;
   Eigen::VectorXd errors() const;
   /// The state of each controller's integral; 0 without one.
   std::vector<double> integral_of_controllers() const;
+  /// The estimates of all observers. They are numbers to be chosen as those of integrals are, in
+  /// integrals(), and their rates in errors().
+  std::vector<double> estimates_of_controllers() const;
+  bool has_estimates() const { return has_estimates_; }
 
   /// An orthonormal basis N of the velocities that the constraints allow.
   Status linearize(Eigen::MatrixXd* N);
@@ -51,7 +58,8 @@ class RestingMechanism {
   const Layout& layout_;
   const std::vector<double> parameters_;
   DrivenMotion motion_;
-  std::vector<int> integrals_;  ///< indices of extra states
+  std::vector<int> integrals_;  ///< indices of extra states, behind those of integrals of estimates
+  bool has_estimates_ = false;
   Linearization<double> derivatives_;
   State<double> state_;
   VectorX<double> theta_;

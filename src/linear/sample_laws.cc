@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "codegen/interpreter.h"
+#include "codegen/traced.h"
 #include "control/controller.h"
 #include "control/sampled_pid.h"
 #include "elements/sampled_control.h"
@@ -50,8 +52,48 @@ Bounds<SampleNumber> numbers_of(const Bounds<Complex>& bounds) {
   return {bounds.lower, bounds.upper, bounds.is_symmetric};
 }
 
-/// A study in which one controller is continuous, its law the only watched signal: of a PID its
-/// error.
+/// The shape of a filter at numbers with derivatives, from the recording of its law.
+FilterShape<Complex> shape_of(const FilterLaw& law, const FilterNumbers<Complex>& numbers) {
+  Recording recording;
+  FilterNumbers<Traced> leaves;
+  for (std::size_t k = 0; k < leaves.size(); ++k)
+    leaves[k] = Traced(&recording, recording.leaf(0, static_cast<int>(k), true));
+  const FilterShape<Traced> shape = law.shape.of<Traced>(leaves);
+  std::vector<Complex> values;
+  for (int k = 0; k < recording.size(); ++k) {
+    const Recording::Node& node = recording.node(k);
+    const auto operand = [&](int of) { return of < 0 ? Complex(0.0) : values[to_index(of)]; };
+    if (node.operation == Operation::kLeaf)
+      values.push_back(numbers[to_index(node.b)]);
+    else if (node.operation == Operation::kLiteral)
+      values.emplace_back(node.literal);
+    else
+      values.push_back(operate(node.operation, operand(node.a), operand(node.b)));
+  }
+  const auto value = [&](const Traced& x) {
+    return x.is_literal() ? Complex(x.value()) : values[to_index(x.node())];
+  };
+  return {value(shape.rate), value(shape.lead), value(shape.middle), value(shape.damping)};
+}
+
+/// section_of() with derivatives.
+FilterSection<Complex> complex_section(const FilterDescription& filter, double sample_time,
+                                       const std::vector<Complex>& design) {
+  FilterNumbers<Complex> numbers{};
+  for (std::size_t k = 0; k < filter.numbers.size(); ++k) numbers[k] = filter.numbers[k].at(design);
+  const FilterShape<Complex> shape = shape_of(*filter.kind, numbers);
+  const Complex half = 0.5 * sample_time * shape.rate;
+  return sampled_section(shape, filter.kind->order,
+                         filter.kind->is_prewarped ? std::cos(half) / std::sin(half) : 1.0 / half);
+}
+
+const SignalDescription& signal_of(const ControllerDescription& controller, std::size_t input) {
+  return controller.kind->has_error() ? controller.input : controller.feedback[input].signal;
+}
+
+/// A study in which one controller is continuous. Watched signals are its law, of a PID its error,
+/// and its inputs before their filters. A filter whose output is a state takes the place of those
+/// of each input, so that the law's derivatives by the filtered inputs are those by these states.
 Study law_study(const LinearStudy& of, std::size_t c) {
   Study study = of.study;
   ControllerDescription& controller = study.controllers[c];
@@ -60,11 +102,22 @@ Study law_study(const LinearStudy& of, std::size_t c) {
     controller.p = Quantity(1.0);
     controller.i = controller.d = Quantity(0.0);
   }
+  const auto stand_in = [](std::vector<FilterDescription>* filters) {
+    if (!filters->empty())
+      *filters = {FilterDescription{FilterKind::kLowPass, {Quantity(1.0)}, filters->front().where}};
+  };
+  stand_in(&controller.filters);
+  for (FeedbackTerm& term : controller.feedback) stand_in(&term.filters);
   const std::string name = controller.name + "/output";
   study.watched.erase(
       std::remove_if(study.watched.begin(), study.watched.end(),
                      [&](const WatchedSignal& watched) { return watched.signal.text != name; }),
       study.watched.end());
+  for (std::size_t input = 0; input < filtered_inputs(controller); ++input) {
+    WatchedSignal before = study.watched.front();
+    before.signal = signal_of(controller, input);
+    study.watched.push_back(before);
+  }
   return study;
 }
 
@@ -73,9 +126,12 @@ Study law_study(const LinearStudy& of, std::size_t c) {
 struct SampleLaws::Law {
   CompiledSystem system;
   Equations<Complex> equations;
-  std::vector<int> states;  ///< of the whole system, per state of this one
+  std::vector<int> states;  ///< of the whole system, per state of this one; -1: a filtered input
+  /// per state of this one: the input of which it is the filtered one, or -1
+  std::vector<int> inputs;
   State<Complex> state{};
   SparseGradient<Complex> gradient{};
+  std::vector<Eigen::RowVectorXcd> filtered{};  ///< how each filtered input moves at this sample
 
   Law(const CompiledSystem& of, const LinearStudy& study, std::size_t c,
       const std::vector<std::string>& names)
@@ -84,6 +140,14 @@ struct SampleLaws::Law {
     for (const std::string& name : linear_state_names(system, {}))
       states.push_back(
           static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin()));
+    inputs.assign(states.size(), -1);
+    const std::vector<std::vector<FilterPlace>>& chains = system.controllers()[c].states.inputs;
+    for (std::size_t input = 0; input < chains.size(); ++input)
+      for (const FilterPlace& place : chains[input]) {
+        states[to_index(place.state)] = -1;
+        inputs[to_index(place.state)] = static_cast<int>(input);
+      }
+    filtered.resize(chains.size());
   }
 };
 
@@ -98,27 +162,84 @@ SampleLaws::SampleLaws(const CompiledSystem& system, const LinearStudy& study)
 
 SampleLaws::~SampleLaws() = default;
 
-/// The derivatives of a law by (x's motions, then s), not those of the jump so far.
-Eigen::RowVectorXcd SampleLaws::row_of(int controller, const ComplexMotion& motion,
-                                       Complex* value) {
+/// Sets the state of a law. At rest the output of a filter is its input.
+void SampleLaws::load(int controller, const ComplexMotion& motion) {
   Law& law = *laws_[to_index(controller)];
   const Layout& layout = law.system.layout();
   law.state = motion.state;
-  law.state.s.resize(layout.states);
+  law.state.s.setZero(layout.states);
   for (std::size_t k = 0; k < law.states.size(); ++k)
-    law.state.s[to_signed(k)] = motion.state.s[law.states[k]];
+    if (law.states[k] >= 0) law.state.s[to_signed(k)] = motion.state.s[law.states[k]];
   law.state.z.setZero(layout.columns());
   law.equations.set_design(motion.parameters);
-  *value = law.equations.watched_gradient(0, law.state, &law.gradient);
+  for (std::size_t k = 0; k < law.states.size(); ++k)
+    if (law.inputs[k] >= 0)
+      law.state.s[to_signed(k)] =
+          law.equations.watched_gradient(1 + to_index(law.inputs[k]), law.state, &law.gradient);
+}
+
+/// The derivatives of a watched signal of a law's study by x, after the jump so far.
+Eigen::RowVectorXcd SampleLaws::row_of(int controller, std::size_t watched,
+                                       const ComplexMotion& motion, const Eigen::MatrixXcd& s,
+                                       Complex* value) {
+  Law& law = *laws_[to_index(controller)];
+  const int n = law.system.layout().n;
+  *value = law.equations.watched_gradient(watched, law.state, &law.gradient);
   Eigen::RowVectorXcd row = Eigen::RowVectorXcd::Zero(motion.q.cols());
   for (const auto& entry : law.gradient.position) {
-    if (entry.column < layout.n)
+    if (entry.column < n) {
       row += entry.value * motion.q.row(entry.column);
+      continue;
+    }
+    const auto state = to_index(entry.column - n);
+    if (law.inputs[state] >= 0)
+      row += entry.value * law.filtered[to_index(law.inputs[state])];
     else
-      row[motion.motions + law.states[to_index(entry.column - layout.n)]] += entry.value;
+      row += entry.value * s.row(law.states[state]);
   }
   for (const auto& entry : law.gradient.velocity) row += entry.value * motion.v.row(entry.column);
   return row;
+}
+
+/// Carries the filters of a sampled controller over a sample. They are linear: their states move as
+/// they do. The law reads what they give at the sample.
+void SampleLaws::advance_filters(int controller, const ComplexMotion& motion, Eigen::MatrixXcd* s) {
+  const auto c = to_index(controller);
+  const ControllerDescription& description = study_.study.controllers[c];
+  const std::vector<std::vector<FilterPlace>>& inputs = system_.controllers()[c].states.inputs;
+  for (std::size_t input = 0; input < inputs.size(); ++input) {
+    if (inputs[input].empty()) continue;
+    Complex value;
+    Eigen::RowVectorXcd u = row_of(controller, 1 + input, motion, *s, &value);
+    for (std::size_t k = 0; k < inputs[input].size(); ++k) {
+      const FilterPlace& place = inputs[input][k];
+      const FilterSection<Complex> section =
+          complex_section(filters_of(description, input)[k], description.realization.sample_time,
+                          motion.parameters);
+      const Eigen::RowVectorXcd y = section.direct * u + s->row(place.state);
+      s->row(place.state) = section.in1 * u - section.back1 * y;
+      if (place.order == 2) {
+        s->row(place.state) += s->row(place.state + 1);
+        s->row(place.state + 1) = section.in2 * u - section.back2 * y;
+      }
+      u = y;
+    }
+    laws_[c]->filtered[input] = u;
+  }
+}
+
+/// At rest the innovation of a sampled observer, its law, is zero.
+void SampleLaws::correct_estimates(const ControlEvent& event, const std::vector<Complex>& design,
+                                   const Eigen::RowVectorXcd& law, Eigen::MatrixXcd* s) {
+  const auto c = to_index(event.controller);
+  const ControllerDescription& description = study_.study.controllers[c];
+  const ControllerStates& states = system_.controllers()[c].states;
+  const JointObserver<Complex> observer =
+      joint_observer(description.observer, description.realization.sample_time, design);
+  for (int k = 0; k < states.estimates; ++k)
+    s->row(states.estimate + k) +=
+        (k == 2 ? observer.inertia : Complex(1.0)) * observer.gains[to_index(k)] * law;
+  s->row(output_state(system_, event)) = law;
 }
 
 void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
@@ -132,11 +253,11 @@ void SampleLaws::sample(const ControlEvent& event, const ComplexMotion& motion,
   if (realization.i_clamp) clamped = numbers_of(bounds_at(*realization.i_clamp, design));
   if (realization.output_limit) limit = numbers_of(bounds_at(*realization.output_limit, design));
   Complex value;
-  const Eigen::RowVectorXcd own = row_of(event.controller, motion, &value);
+  load(event.controller, motion);
+  advance_filters(event.controller, motion, s);
   // The law reads what earlier events of the instant have written.
-  Eigen::RowVectorXcd law = own;
-  law.tail(s->rows()).setZero();
-  for (Eigen::Index k = 0; k < s->rows(); ++k) law += own[motion.motions + k] * s->row(k);
+  const Eigen::RowVectorXcd law = row_of(event.controller, 0, motion, *s, &value);
+  if (controller.states.estimate >= 0) return correct_estimates(event, design, law, s);
   SampleNumber output = SampleNumber::variable(value, 0);
   Eigen::MatrixXcd variables = Eigen::MatrixXcd::Zero(SampleNumber::kVariables, law.size());
   variables.row(0) = law;

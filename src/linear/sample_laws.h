@@ -38,8 +38,12 @@ class SampleLaws {
  private:
   struct Law;
 
-  Eigen::RowVectorXcd row_of(int controller, const ComplexMotion& motion,
-                             std::complex<double>* value);
+  void load(int controller, const ComplexMotion& motion);
+  Eigen::RowVectorXcd row_of(int controller, std::size_t watched, const ComplexMotion& motion,
+                             const Eigen::MatrixXcd& s, std::complex<double>* value);
+  void advance_filters(int controller, const ComplexMotion& motion, Eigen::MatrixXcd* s);
+  void correct_estimates(const ControlEvent& event, const std::vector<std::complex<double>>& design,
+                         const Eigen::RowVectorXcd& law, Eigen::MatrixXcd* s);
   void sample(const ControlEvent& event, const ComplexMotion& motion, Eigen::MatrixXcd* s);
 
   const CompiledSystem& system_;

@@ -112,6 +112,23 @@ Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::Matrix
   return A.partialPivLu().solve(b);
 }
 
+Eigen::MatrixXcd within_circle(const MatrixXd& A, std::complex<double> centre, double radius,
+                               int points,
+                               const std::function<std::complex<double>(std::complex<double>)>& f) {
+  constexpr double kTurn = 6.283185307179586;
+  MatrixXd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::MatrixXcd unit = Eigen::MatrixXcd::Identity(A.rows(), A.rows());
+  Eigen::MatrixXcd sum = Eigen::MatrixXcd::Zero(A.rows(), A.rows());
+  for (int k = 0; k < points; ++k) {
+    const std::complex<double> from_centre = std::polar(radius, kTurn * (k + 0.5) / points),
+                               z = centre + from_centre;
+    sum += f(z) * from_centre / static_cast<double>(points) *
+           complex_solution(z * unit - balanced, unit);
+  }
+  return scale.asDiagonal() * sum * scale.cwiseInverse().asDiagonal();
+}
+
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A * B; }
 
 TransferFunction::TransferFunction(const MatrixXd& A, const Eigen::VectorXd& b,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 
 namespace codesign {
 
@@ -33,6 +34,16 @@ Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A);
 /// The solutions of A x = b, one per column, by LU with partial pivoting; A b.
 Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+
+/// f(A) on the invariant subspace of the eigenvalues within a circle, and zero on that of all
+/// others: the integral of f(z) (z I - A)^-1 dz / (2 pi i) by the trapezoidal rule, which converges
+/// as a power series does: f has no pole within. The derivative of the sum of g of these
+/// eigenvalues by A is the trace of this matrix times dA, with f = g', wherever they meet (Kato
+/// 1966).
+/// @param points of the rule.
+Eigen::MatrixXcd within_circle(const Eigen::MatrixXd& A, std::complex<double> centre, double radius,
+                               int points,
+                               const std::function<std::complex<double>(std::complex<double>)>& f);
 
 /// The transfer function c (s I - A)^-1 b + d of one input and one output. A value takes n^2
 /// operations, by Hessenberg's form.

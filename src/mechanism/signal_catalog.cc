@@ -58,7 +58,13 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
     const auto has = [&](const SignalFacts& facts) {
-      return facts.kind == SignalKind::kControllerOutput || controller.kind->has_error();
+      if (facts.kind == SignalKind::kControllerOutput) return true;
+      if (facts.kind == SignalKind::kObservedDisturbance)
+        return controller.observer.has_disturbance;
+      const bool is_estimate = facts.kind == SignalKind::kObservedPosition ||
+                               facts.kind == SignalKind::kObservedVelocity;
+      return is_estimate ? controller.kind->input == ControlInput::kObserved
+                         : controller.kind->has_error();
     };
     add_quantities(SignalOwner::kController, has, &offer);
   }

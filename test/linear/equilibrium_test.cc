@@ -173,6 +173,10 @@ TEST(Equilibrium, FindsNoneWhereALoadMovesForEver) {
   EXPECT_NE(found.status.cause.find("no posture at rest was found near the start"),
             std::string::npos)
       << found.status.cause;
+  EXPECT_NE(found.status.cause.find(
+                "the largest effort that nothing balances 1 N or N m, of hinge/position"),
+            std::string::npos)
+      << found.status.cause;
 }
 
 // p e + i s + d e' with e = 0: the integral carries m g l sin(0.7).

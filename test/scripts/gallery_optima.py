@@ -393,9 +393,62 @@ def cam_drive():
 
 
 # Further numbers of the pages: the text before each, and its value.
+def flexible_loop(p, d, notch):
+    """L(jw) as a function of w [rad/s]."""
+    def loop(w):
+        s, turn = 1j * w, 2.0 * pi * 20.1317
+        arm = 3.0 * s + 12000.0
+        plant = arm / ((3.0 * s * s + 20.0 * s + arm) * (s * s + arm) - arm * arm)
+        shape = (s * s + turn * turn) / (s * s + turn * s + turn * turn) if notch else 1.0
+        return (p + d * s / (0.002 * s + 1.0)) * shape / (0.002 * s + 1.0) * plant
+    return loop
+
+
+def flexible_margins(p, d, notch):
+    """The largest sensitivity and the smallest phase margin [rad] of the flexible axis, on a grid of frequencies, then by sections."""
+    loop, grid = flexible_loop(p, d, notch), [0.5 * 1.004 ** k for k in range(1800)]
+    sizes, gaps = [abs(loop(w)) for w in grid], [abs(1.0 + loop(w)) for w in grid]
+    phase, gap = pi, min(gaps)
+    for k in range(1, len(grid) - 1):
+        low, high = grid[k - 1], grid[k + 1]
+        if gaps[k] <= gaps[k - 1] and gaps[k] <= gaps[k + 1]:
+            for _ in range(80):
+                left, right = high - 0.6180339887498949 * (high - low), low + 0.6180339887498949 * (high - low)
+                low, high = (low, right) if abs(1.0 + loop(left)) < abs(1.0 + loop(right)) else (left, high)
+            gap = min(gap, abs(1.0 + loop(low)))
+        low, high = grid[k], grid[k + 1]
+        if (sizes[k] < 1.0) != (sizes[k + 1] < 1.0):
+            for _ in range(60):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if (abs(loop(middle)) < 1.0) == (sizes[k] < 1.0) else (low, middle)
+            value = -loop(low)
+            phase = min(phase, abs(atan2(value.imag, value.real)))
+    return 1.0 / gap, phase
+
+
+def flexible_gains(start, notch=True):
+    """The gains at which both bounds hold with equality, by Newton's method with differences."""
+    x = list(start)
+    for _ in range(8):
+        def missing(*gains_now):
+            largest, phase = flexible_margins(*gains_now, notch)
+            return largest - 1.5, phase - 0.9
+        now = missing(*x)
+        columns = [[(a - b) / (1e-5 * x[i]) for a, b in zip(missing(*(value * (1.0 + 1e-5 * (k == i)) for k, value in enumerate(x))), now)] for i in range(2)]
+        x = [value - step for value, (step,) in zip(x, solve(transposed(columns), [[value] for value in now]))]
+    return x
+
+
+def flexible_axis():
+    """Both bounds are active: two equations for two gains."""
+    p, d = flexible_gains([1400.0, 90.0])
+    return {"p": (p, 1e-6), "d": (d, 1e-6)}
+
+
 FURTHER = {
     "delta_robot": delta_further,
     "door_closer": lambda: {"is least at $\\zeta = ": door_damping()},
+    "flexible_axis": lambda: {"the same bounds leave p = ": flexible_gains([200.0, 8.0], notch=False)[0]},
     "hoist_gear": lambda: {"without losses alone, the gear is ": hoist_gear(1.0)["gear"][0]},
     "goods_lift": lambda: {"A ride of 1.5 s heats the motor ": lift_heat(1.5) / goods_lift()["objective"][0]},
     "quarter_car": lambda: {"the best damper is ": quarter_car_on_a_step()},

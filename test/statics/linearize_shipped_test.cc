@@ -1,9 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "assembly/assembly.h"
+#include "cases/shipped.h"
 #include "description/study.h"
+#include "equations/iteration_matrix.h"
+#include "linear/linear_motion.h"
+#include "mechanism_codesign/source_text.h"
+#include "paths.h"
 #include "statics/linearize.h"
 #include "statics/statics_cases.h"
 #include "text/number_text.h"
@@ -75,8 +81,7 @@ std::vector<double> differences(const Problem& problem, Start start,
 // Loops, friction that depends on reactions, controllers, all in motion.
 TEST(Linearize, ShippedCasesAgreeWithDifferences) {
   for (const std::string name : {"slider_crank", "governor", "two_link_arm", "gantry"}) {
-    const Problem problem = load_problem({name + ".urdf", file_text("urdf/" + name + ".urdf")}, {},
-                                         {name + ".yaml", file_text("config/" + name + ".yaml")});
+    const Problem problem = shipped_problem(name, {});
     const CompiledSystem& system = *system_of(problem);
     const LinearModel model = linearize_in_motion(system, problem.parameters(), {}, 0.0);
     ASSERT_TRUE(model.status.ok()) << model.status.cause;
@@ -99,6 +104,104 @@ TEST(Linearize, ShippedCasesAgreeWithDifferences) {
       }
     }
   }
+}
+
+/// Compares the motion between samples about the start with a complex step through the equations
+/// of runs: the derivatives of accelerations and of states by (y, y', s) and by all inputs.
+void expect_complex_steps(const CompiledSystem& of, const std::vector<double>& parameters,
+                          const std::string& name) {
+  using Complex = std::complex<double>;
+  constexpr double kStep = 1e-30;
+  const LinearStudy study =
+      with_inputs(bare_study({&of, parameters, {}, false, {}}), parameters, 0.0, false);
+  const CompiledSystem system(of.robot(), study.study, of.sharing());
+  const Layout& layout = system.layout();
+  StartWorkspace start(system, study.parameters);
+  const Status started = start.solve();
+  ASSERT_TRUE(started.ok()) << name << ": " << started.cause;
+  LinearMotion motion(system, study);
+  const Status status = motion.linearize(start.state);
+  ASSERT_TRUE(status.ok()) << name << ": " << status.cause;
+  Linearization<double> derivatives;
+  derivatives.resize(system.patterns());
+  motion.equations().linearize(motion.state(), &derivatives);
+  IterationMatrix matrix(system);
+  ASSERT_TRUE(matrix.factor(derivatives, 0.0, 0.0, 0.0)) << name;
+  Equations<Complex> equations(system);
+  equations.compiled().allow(false);
+  const LinearCoordinates& y = motion.coordinates();
+  const Eigen::Index f = y.Q.cols(), x = 2 * f + layout.states;
+  Eigen::MatrixXd expected(x, x + to_signed(study.inputs.size()));
+  for (Eigen::Index k = 0; k < expected.cols(); ++k) {
+    State<Complex> state;
+    cast_state(motion.state(), &state);
+    std::vector<Complex> design(study.parameters.begin(), study.parameters.end());
+    const Complex step(0.0, kStep);
+    if (k < f) {
+      state.q += step * y.Q.col(k).cast<Complex>();
+      state.v += step * y.P.col(k).cast<Complex>();
+    } else if (k < 2 * f) {
+      state.v += step * y.Q.col(k - f).cast<Complex>();
+    } else if (k < x) {
+      state.s[k - 2 * f] += step;
+    } else {
+      design[study.first + to_index(k - x)] += step;
+    }
+    equations.set_design(design);
+    VectorX<Complex> G, Phi, Phi_rate;
+    Complex g;
+    if (k < 2 * f) {
+      equations.constraint_errors(state, &Phi, &Phi_rate);
+      for (const VectorX<Complex>* errors : {&Phi, &Phi_rate})
+        for (Eigen::Index row = 0; row < errors->size(); ++row)
+          EXPECT_NEAR((*errors)[row].imag() / kStep, 0.0, 1e-8) << name << ", direction " << k;
+    }
+    equations.residual(state, &G, &g);
+    VectorX<double> rates = -G.head(layout.columns()).imag() / kStep;
+    matrix.lu().solve(rates);
+    expected.col(k).setZero();
+    if (k >= f && k < 2 * f) expected(k - f, k) = 1.0;
+    for (Eigen::Index row = 0; row < f; ++row)
+      expected(f + row, k) = rates[y.columns[to_index(row)]];
+    expected.col(k).tail(layout.states) = rates.tail(layout.states);
+  }
+  Eigen::MatrixXd found(x, expected.cols());
+  found << motion.flow().A, motion.flow().B;
+  const double scale = 1.0 + expected.cwiseAbs().maxCoeff();
+  EXPECT_LT((found - expected).cwiseAbs().maxCoeff(), 1e-11 * scale) << name;
+}
+
+TEST(Linearize, EveryShippedCaseAgreesWithComplexSteps) {
+  int compared = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(source_dir()) / "config")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string name = entry.path().stem().string();
+    const Shipped shipped(name);
+    if (shipped.study.postures > 0) continue;
+    expect_complex_steps(*make_system(shipped.robot, shipped.study), shipped.parameters(), name);
+    ++compared;
+  }
+  EXPECT_GE(compared, 8);
+}
+
+// Robots as vendors describe them, hanging from their bases.
+TEST(Linearize, RobotsAsTheyAreFoundAgreeWithComplexSteps) {
+  const std::filesystem::path folder =
+      std::filesystem::path(source_dir()).parent_path() / "shared" / "corpus" / "urdf";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of files at " << folder;
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".urdf") continue;
+    try {
+      const Problem problem = loaded(read_source(entry.path().string()).text, "duration: 1\n");
+      expect_complex_steps(*system_of(problem), problem.parameters(), entry.path().filename());
+      ++compared;
+    } catch (const InputError&) {
+      continue;  // not a machine whose motion is determined: those of doc/corpus.md
+    }
+  }
+  EXPECT_GE(compared, 20);
 }
 
 }  // namespace

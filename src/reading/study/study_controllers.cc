@@ -91,6 +91,89 @@ EntryKey<ControllerDescription> gains_key() {
           }};
 }
 
+/// Poles as numbers or pairs, one per state.
+void read_observer_poles(const YamlValue& value, ObserverDescription* observer) {
+  for (const YamlValue& item : value.items()) {
+    std::vector<double> pole;
+    if (item.is_list())
+      for (const YamlValue& number : item.items()) pole.push_back(number.number());
+    else
+      pole = {item.number(), 0.0};
+    if (pole.size() != 2 || !(pole[0] < 0.0))
+      item.fail("an estimate decays only by poles on the left of the axis",
+                "a number below 0 [1/s], or a pair [real part, imaginary part]");
+    for (const double side : {1.0, -1.0}) {
+      observer->real.push_back(pole[0]);
+      observer->imaginary.push_back(side * pole[1]);
+      if (pole[1] == 0.0) break;
+    }
+  }
+  if (observer->real.size() != static_cast<std::size_t>(observer->order()))
+    value.fail("found " + std::to_string(observer->real.size()) + " poles for " +
+                   std::to_string(observer->order()) + " estimates",
+               "position and velocity, with disturbance: true a third one; a pair as one entry");
+}
+
+Quantity read_observer_number(const YamlValue& value, const ParameterTable& table) {
+  const Quantity quantity = read_quantity(value, table);
+  if (!(quantity.nominal() > 0.0))
+    value.fail("this must be positive at the parameters' start", "more than 0");
+  return quantity;
+}
+
+/// A number of an observer that must be positive.
+template <class Member>
+EntryKey<ControllerDescription> observer_number(const char* name, bool is_required, Member member) {
+  return {name, is_required,
+          [member](const YamlValue& value, const EntryContext& in, ControllerDescription* of) {
+            of->observer.*member = read_observer_number(value, in.table);
+          }};
+}
+
+ControllerKeys observer_keys() {
+  using O = ObserverDescription;
+  return {{"type", true, nullptr},
+          {"joint", true,
+           [](const YamlValue& value, const EntryContext& in, ControllerDescription* of) {
+             of->observer.joint = scalar_joint(value.text(), in.robot, value).name;
+           }},
+          observer_number("inertia", true, &O::inertia),
+          {"input", false,
+           [](const YamlValue& value, const EntryContext& in, ControllerDescription* of) {
+             of->input = read_signal(value, in);
+           }},
+          {"disturbance", false,
+           [](const YamlValue& value, const EntryContext&, ControllerDescription* of) {
+             of->observer.has_disturbance = value.boolean();
+           }},
+          {"poles", false,
+           [](const YamlValue& value, const EntryContext&, ControllerDescription* of) {
+             read_observer_poles(value, &of->observer);
+           }},
+          observer_number("bandwidth", false, &O::bandwidth),
+          observer_number("process", false, &O::process),
+          observer_number("measurement", false, &O::measurement)};
+}
+
+/// Without an input the observer has the position of its joint; its gains follow from one choice.
+void complete_observer(const YamlValue& value, ControllerDescription* controller) {
+  const ObserverDescription& observer = controller->observer;
+  if (!value.find("input"))
+    controller->input = {
+        observer.joint + "/position", {{1.0, observer.joint, "position", ""}}, controller->where};
+  const bool has_process = value.find("process").has_value(),
+             has_measurement = value.find("measurement").has_value(),
+             by_noise = has_process && has_measurement;
+  if (has_process != has_measurement ||
+      (value.find("poles") ? 1 : 0) + (value.find("bandwidth") ? 1 : 0) + (by_noise ? 1 : 0) != 1)
+    value.fail("the gains of an observer follow from one of three",
+               "poles; bandwidth; or process and measurement, for a Kalman filter");
+  if (by_noise && observer.has_disturbance && value.find("sample_time"))
+    value.at("process").fail(
+        "a sampled Kalman filter with a disturbance has no gains in closed form",
+        "bandwidth or poles; or no sample_time; or no disturbance");
+}
+
 /// The keys of a controller by what its law works on; the type has been read.
 ControllerKeys law_keys(ControlInput input) {
   const ControllerKeys type{{"type", true, nullptr}}, output{{"output", true, read_output}};
@@ -122,6 +205,8 @@ ControllerKeys law_keys(ControlInput input) {
       return with(with(type, output), ControllerKeys{{"coefficients", true, nullptr},
                                                      {"shape", false, nullptr},
                                                      {"duration", false, nullptr}});
+    case ControlInput::kObserved:
+      return observer_keys();
   }
   return {};
 }
@@ -139,6 +224,7 @@ void complete(const YamlValue& value, const EntryContext& in, ControllerDescript
                "feedback: at least one {signal, gain, reference}; or feedforward");
   if (controller->kind->input == ControlInput::kShape)
     controller->basis = read_basis(controller->name, value, in.table, in.study.duration);
+  if (controller->kind->input == ControlInput::kObserved) complete_observer(value, controller);
 }
 
 ControllerDescription read_controller(const std::string& name, const YamlValue& value,
@@ -167,7 +253,7 @@ void refuse_idle(const Study& study) {
     });
   };
   for (const ControllerDescription& controller : study.controllers) {
-    if (!controller.output.empty()) continue;
+    if (!controller.output.empty() || controller.kind->input == ControlInput::kObserved) continue;
     const bool is_read = std::any_of(
         study.controllers.begin(), study.controllers.end(),
         [&](const ControllerDescription& other) {
@@ -203,6 +289,10 @@ void read_controllers(const YamlValue& study_value, const RobotDescription& robo
     study->controllers.push_back(
         read_controller(name, value, EntryContext{robot, table, loader, *study}));
   refuse_idle(*study);
+  for (ControllerDescription& observer : study->controllers)
+    for (const ControllerDescription& controller : study->controllers)
+      if (controller.output == observer.observer.joint && !controller.output.empty())
+        observer.observer.efforts.push_back(controller.name);
 }
 
 }  // namespace codesign

@@ -145,6 +145,8 @@ ControllerKeys realization_keys(ControllerKind kind) {
       {"filter", false, [](const YamlValue& value, const EntryContext& in, Of* of) {
          of->filters = read_filters(value, in.table);
        }}};
+  if (kind->input == ControlInput::kObserved)
+    return {instant_key("sample_time", &R::sample_time, false)};
   // The bounds come last: whether they may be zero depends on the sampling and the anti-windup.
   EntryKeys<Of> keys{positive_key("time_constant", &R::time_constant),
                      instant_key("sample_time", &R::sample_time, false),

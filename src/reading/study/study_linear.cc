@@ -73,15 +73,6 @@ WatchedKeys linear_keys(bool of_poles, bool is_bound) {
   return with(with(keys, bound_keys<WatchedSignal>()), WatchedKeys{tolerance_key()});
 }
 
-/// How a sampled filter moves with a small motion has no derivatives by the design yet.
-void refuse_sampled_filters(const YamlValue& item, const Study& study) {
-  for (const ControllerDescription& controller : study.controllers)
-    if (controller.has_filters() && controller.realization.is_sampled())
-      item.fail("the sampled controller \"" + controller.name +
-                    "\" has filters, and poles and margins of such loops have no derivatives",
-                "controllers whose filters are continuous; codesign linearize shows these numbers");
-}
-
 WatchedSignal read_number(const YamlValue& value, bool of_poles, Role role,
                           const EntryContext& in) {
   WatchedSignal watched;
@@ -95,7 +86,6 @@ WatchedSignal read_number(const YamlValue& value, bool of_poles, Role role,
         "poles and loops are those about the rest of a motion, and positions are many "
         "postures",
         "a study with duration; runs that set other starts or set-points");
-  refuse_sampled_filters(value, in.study);
   const LinearMeasure& measure = *watched.linear;
   watched.measure = measure.counts_smallest() ? WatchedSignal::Measure::kMinimum
                                               : WatchedSignal::Measure::kMaximum;

@@ -54,12 +54,6 @@ TEST(StudyLinear, RefusesWhatIsNoLoop) {
   EXPECT_NE(message("{poles: radius, at_most: 1}", cart_servo("gains: {p: 4}"))
                 .find("no controller of the study is sampled"),
             std::string::npos);
-  const std::string filtered = "gains: {p: 4}, filter: {type: low_pass, frequency: 5}";
-  EXPECT_NE(message("{poles: growth, at_most: 1}", cart_servo(filtered + ", sample_time: 0.01"))
-                .find("sampled controller \"servo0\" has filters"),
-            std::string::npos);
-  EXPECT_EQ(watched("constraints: [{poles: growth, at_most: 1}]\n", cart_servo(filtered)).size(),
-            1U);
   EXPECT_NE(refused([&] {
               loaded(carts(1, {""}),
                      "positions: {x0: [0, 1]}\nconstraints: [{poles: growth, "

@@ -1,0 +1,74 @@
+#!/usr/bin/python3
+# Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+"""Verdicts about loops against runs, and searches over loops against other programs."""
+import math
+import unittest
+
+import numpy as np
+from fixture import command_line  # noqa: F401  (sets the path of the package's tests)
+
+import mechanism_codesign as codesign
+
+INERTIA = '<inertia ixx="0.01" ixy="0" ixz="0" iyy="0.01" iyz="0" izz="0.01"/>'
+LIMIT = '<limit lower="-9" upper="9" effort="0" velocity="0"/>'
+CART = f"""<robot name="cart" xmlns:codesign="urn:mechanism_codesign"><link name="rail"/>
+<link name="body"><inertial><mass value="1"/>{INERTIA}</inertial></link>
+<joint name="slide" type="prismatic"><parent link="rail"/><child link="body"/><axis xyz="1 0 0"/>{LIMIT}<dynamics damping="1"/></joint></robot>"""
+# A structure of 1 kg and 1 N/m, whose spring is a controller, with a damper of a fifth of its mass.
+DAMPER = f"""<robot name="damper" xmlns:codesign="urn:mechanism_codesign">
+<codesign:parameter name="k" value="0.15" lower="0.02" upper="1"/><codesign:parameter name="c" value="0.06" lower="0.01" upper="1"/><link name="ground"/>
+<link name="structure"><inertial><mass value="1"/>{INERTIA}</inertial></link><link name="mass"><inertial><mass value="0.2"/>{INERTIA}</inertial></link>
+<joint name="sway" type="prismatic"><parent link="ground"/><child link="structure"/><axis xyz="1 0 0"/>{LIMIT}</joint>
+<joint name="slide" type="prismatic"><parent link="structure"/><child link="mass"/><axis xyz="1 0 0"/>{LIMIT}
+<codesign:torsion_spring stiffness="0.15" codesign:stiffness="${{k}}" damping="0.06" codesign:damping="${{c}}" free_position="0"/></joint></robot>"""
+
+
+def amplification(frequency, k, c, ratio=0.2):
+    """|x| of the structure per static deflection, under a force of this frequency [rad/s]."""
+    s = 1j * frequency
+    link = k + c * s
+    return np.abs((ratio * s * s + link) / ((s * s + 1 + link) * (ratio * s * s + link) - link * link))
+
+
+class Loops(unittest.TestCase):
+    def test_a_sampled_loop_grows_and_decays_in_a_long_run_as_its_poles_say(self):
+        """2/(s (s + 1)(s + 2)) behind a zero-order hold of 0.05 s: the gain margin is 2.7928."""
+        study = ("duration: 400.0\ninitial_state: {slide: {position: 0.01}}\nparameters: {p: {initial: 1.0, lower: 0.5, upper: 4.0}}\n"
+                 "objective: {terminal: [{signal: slide/position}]}\ncontrollers: {servo: {type: pid, input: slide/position, setpoint: 0.0, output: slide, "
+                 "gains: {p: \"${p}\"}, sample_time: 0.05, time_constant: 0.5}}\nsolver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-13}\n")
+        problem = codesign.Problem(CART, study)
+        margin = problem.linearize(p=1.0).loops["servo"]["gain_margin"]["value"]
+        self.assertAlmostEqual(margin, 2.7928, delta=5e-5)
+        for part, stable in ((0.98, True), (1.02, False)):
+            loop = problem.linearize(p=part * margin)
+            self.assertEqual(loop.stability, "stable" if stable else "unstable")
+            growth = loop.modes[0]["growth"]
+            self.assertEqual(growth < 0.0, stable)
+            run = problem.simulate(signals=["slide/position"], samples=40001, p=part * margin)
+            time, position = np.asarray(run.time), run["slide/position"]
+            period = 1.0 / loop.modes[0]["frequency"]
+
+            def swing(begin, time=time, position=position, period=period):
+                inside = (time >= begin) & (time < begin + 20 * period)
+                return math.sqrt(np.mean(position[inside] ** 2))
+
+            self.assertAlmostEqual(math.log(swing(100.0 + 40 * period) / swing(100.0)) / (40 * period), growth, delta=1e-4 * abs(growth))
+
+    def test_a_tuned_mass_damper_has_the_least_largest_peak(self):
+        """Both peaks alike, and stationary: 3.32543884112347215 at k = 0.138852110669809, c = 0.0840466846689308 by mpmath's Newton method with 40 digits. Den Hartog's
+        fixed points, sqrt(1 + 2/ratio), are 0.3 % lower."""
+        study = ("duration: 10.0\nparameters: {k: {}, c: {}}\nobjective: {loop: [{loop: frame, measure: complementary_sensitivity}]}\n"
+                 "controllers: {frame: {type: pid, input: sway/position, setpoint: 0.0, output: sway, gains: {p: 1.0}}}\n")
+        result = codesign.Problem(DAMPER, study).optimize()
+        self.assertEqual(str(result.status.code), "success", str(result))
+        self.assertAlmostEqual(result.objective, 3.32543884112347215, delta=1e-9)
+        tuned = result.parameters
+        self.assertAlmostEqual(tuned["k"], 0.138852110669809, delta=1e-7)
+        self.assertAlmostEqual(tuned["c"], 0.0840466846689308, delta=1e-7)
+        frequencies = np.linspace(0.3, 2.0, 200001)
+        self.assertAlmostEqual(amplification(frequencies, tuned["k"], tuned["c"]).max(), result.objective, delta=1e-8)
+        self.assertGreater(result.objective, math.sqrt(11.0))
+
+
+if __name__ == "__main__":
+    unittest.main()
