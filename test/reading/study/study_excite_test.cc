@@ -30,7 +30,7 @@ TEST(StudyExcite, Defaults) {
   EXPECT_EQ(description.sample_rate, 100.0);
   EXPECT_EQ(description.starts, 4);
   EXPECT_EQ(description.search, TrajectorySearchMethod::kSlsqp);
-  EXPECT_EQ(description.max_evaluations, 200);
+  EXPECT_EQ(description.max_evaluations, 1000);
 }
 
 TEST(StudyExcite, ReadsAllKeys) {
