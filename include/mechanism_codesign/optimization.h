@@ -194,6 +194,7 @@ struct ChoiceResult {
   std::vector<std::pair<std::string, std::string>> chosen;
   double combinations = 0.0;  ///< number of all
   int searched = 0;           ///< combinations at which a search of the other parameters has ended
+  int unfinished = 0;   ///< of these: searches that ended before an optimum, or without a point
   int relaxations = 0;  ///< searches of parts of the combinations with numbers between the listed
   /// parts left out since their relaxation was worse than the best combination known
   int bounded = 0;

@@ -132,8 +132,9 @@ constexpr auto fields_of(const SearchCost*) {
 constexpr auto fields_of(const ChoiceResult*) {
   return std::make_tuple(
       field("combinations", &ChoiceResult::combinations),
-      field("searched", &ChoiceResult::searched), field("relaxations", &ChoiceResult::relaxations),
-      field("bounded", &ChoiceResult::bounded), field("infeasible", &ChoiceResult::infeasible),
+      field("searched", &ChoiceResult::searched), field("unfinished", &ChoiceResult::unfinished),
+      field("relaxations", &ChoiceResult::relaxations), field("bounded", &ChoiceResult::bounded),
+      field("infeasible", &ChoiceResult::infeasible),
       field("complete", &ChoiceResult::is_complete));
 }
 

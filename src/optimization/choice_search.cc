@@ -146,7 +146,12 @@ class ChoiceSearch {
     OptimizationResult found = search(part, start, true);
     // An interrupted search has a design, too.
     if (found.status.is_interrupted() && found.best.gradient.size() == 0) return;
-    if (!found.status.is_interrupted()) ++choice_.searched;
+    if (!found.status.is_interrupted()) {
+      ++choice_.searched;
+      const bool has_ended =
+          found.status.code == StatusCode::kInfeasible || is_success(found.termination);
+      if (!has_ended) ++choice_.unfinished;
+    }
     if (!initial_) initial_ = found.initial;
     if (best_ && !(rank(found) < rank(*best_))) return;
     best_ = std::move(found);

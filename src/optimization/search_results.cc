@@ -309,6 +309,9 @@ std::string choice_sentence(const OptimizationResult& result) {
            " searched, the others left out by the bounds of " +
            count_of(choice.relaxations, "relaxation") +
            ", which hold where the search of a relaxation has found its least value";
+  if (choice.unfinished > 0)
+    text += "; the search of " + count_of(choice.unfinished, "combination") +
+            " ended before an optimum, which may be better";
   if (!std::isfinite(result.optimality.stationarity)) return text;
   return text + "; the parameters that are not chosen are stationary to " +
          readable(result.optimality.stationarity, 2) +

@@ -69,15 +69,24 @@ class RunOnRanks : public testing::Test {
           << folder << " " << name;
   }
 
+  /// A file about a process; empty if the process ends meanwhile.
+  static std::string told_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    try {
+      return {std::istreambuf_iterator<char>(file), {}};
+    } catch (const std::exception&) {
+      return "";
+    }
+  }
+
   /// The process of a rank of the job that writes into a folder; 0 if it is not there (yet).
   static pid_t process_of(int rank, const std::string& folder) {
     const std::string wanted = "OMPI_COMM_WORLD_RANK=" + std::to_string(rank);
     for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
       const std::string name = entry.path().filename();
       if (name.find_first_not_of("0123456789") != std::string::npos) continue;
-      std::ifstream command(entry.path() / "cmdline"), environment(entry.path() / "environ");
-      const std::string words{std::istreambuf_iterator<char>(command), {}},
-          variables{std::istreambuf_iterator<char>(environment), {}};
+      const std::string words = told_of(entry.path() / "cmdline"),
+                        variables = told_of(entry.path() / "environ");
       if (words.find(folder) != std::string::npos &&
           variables.find(wanted + '\0') != std::string::npos)
         return std::stoi(name);

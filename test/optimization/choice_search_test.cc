@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mechanism_codesign/gradient.h"
+#include "optimization/search_results.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -72,6 +73,22 @@ TEST(ChoiceSearch, WholeNumbersOfAQuadraticAreNotTheRoundedOnes) {
   EXPECT_NEAR(result.initial.objective, valley(30.0, 1.0) + 9.0, 1e-9);
   EXPECT_EQ(result.optimality.bound_multipliers[0], 0.0);
   for (const Warning& warning : result.warnings) EXPECT_NE(warning.code, "parameter_on_bound");
+}
+
+TEST(ChoiceSearch, CombinationsWhoseSearchEndedEarlyAreCounted) {
+  const std::string study = squares(
+      "x: {choice: [1, 2]}, a: {initial: -1.2, lower: -9, upper: 9}, b: {initial: 1.0, lower: -9, "
+      "upper: 9}",
+      {"x - 1.4", "10*(b - a**2)", "1 - a"});
+  const OptimizationResult whole = optimize(cart(study));
+  EXPECT_EQ(whole.choice.unfinished, 0);
+  EXPECT_EQ(whole.termination, "all_combinations_searched");
+  const OptimizationResult cut = optimize(cart(study + "optimizer: {max_evaluations: 3}\n"));
+  EXPECT_EQ(cut.choice.searched, 2);
+  EXPECT_EQ(cut.choice.unfinished, 2);
+  EXPECT_NE(stop_sentence(cut).find("the search of 2 combinations ended before an optimum"),
+            std::string::npos)
+      << stop_sentence(cut);
 }
 
 const char* const kParts =
