@@ -270,7 +270,7 @@ def main():
     times, settings = tables_of(races)
     run = [[time.strftime("%Y-%m-%d %H:%M UTC", time.gmtime()), f"{processor()}, {os.cpu_count()} cores", f"{min(load):.1f} to {max(load):.1f}",
             str(arguments.rounds)]]
-    tables = (("peers", "Processor time at the same error", times), ("peers_settings", "Best settings", settings),
+    tables = (("peers_brief", "Times of ours", table.brief_of_times(*times)), ("peers", "Processor time at the same error", times), ("peers_settings", "Best settings", settings),
               ("peers_versions", "Programs", versions_table(versions, silent)),
               ("peers_run", "The run", (["date", "machine", "load average", "rounds"], run)))
     if arguments.markdown:

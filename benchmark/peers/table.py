@@ -82,8 +82,20 @@ def row_of_times(seconds, own, others, reasons):
     return cells + [fastest if fastest == own else f"**{fastest}**"]
 
 
+def brief_of_times(columns, rows):
+    """Of the table of times the rows at the smallest error of each task, with the ratios alone; those below 1 are bold."""
+    def ratio(cell):
+        if not cell.endswith(" x"):
+            return "-"
+        number = cell[cell.rindex(",") + 2:-2]
+        return f"**{number}**" if float(number) < 1.0 else number
+
+    tight = {row[0]: row for row in sorted(rows, key=lambda row: -float(row[1]))}
+    return columns[:-1], [tight[task][:3] + [ratio(cell) for cell in tight[task][3:-1]] for task in dict.fromkeys(row[0] for row in rows)]
+
+
 def to_markdown(name, columns, rows):
-    """A table for doc/performance.md, between the markers of update_tables.py."""
+    """A table for doc/performance.md or benchmark/sweeps.md, between the markers of update_tables.py."""
     lines = [f"<!-- table: {name} -->", "| " + " | ".join(columns) + " |", "|" + "---|" * len(columns)]
     lines += ["| " + " | ".join(row) + " |" for row in rows]
     return "\n".join(lines + [f"<!-- end: {name} -->"]) + "\n"

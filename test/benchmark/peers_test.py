@@ -68,6 +68,12 @@ class TablesTest(unittest.TestCase):
         self.assertEqual(table.row_of_times({"a": 1e-3}, "ours", ["a"], {"ours": "least error 1e-02"}), ["least error 1e-02", "1.00 ms", "**a**"])
         self.assertEqual(table.row_of_times({}, "ours", ["a"], {}), ["-", "-", "-"])
 
+    def test_a_brief_table_has_the_ratios_at_the_smallest_error(self):
+        rows = [["t", "1e-03", "1.00 ms", "2.00 ms, 2.00 x", "cannot", "ours"], ["t", "1e-06", "4.00 ms", "2.00 ms, 0.500 x", "-", "**a**"],
+                ["u", "1e-06", "1.00 ms", "1234 ms, 1234 x", "9.00 ms, 9.00 x", "ours"]]
+        self.assertEqual(table.brief_of_times(["task", "error", "ours", "a", "b", "fastest"], rows),
+                         (["task", "error", "ours", "a", "b"], [["t", "1e-06", "4.00 ms", "**0.500**", "-"], ["u", "1e-06", "1.00 ms", "1234", "9.00"]]))
+
     def test_digits(self):
         self.assertEqual([table.three_digits(x) for x in (0.0, 0.012345, 12.345, 1234.5, math.inf)], ["0.00", "0.0123", "12.3", "1234", "-"])
 
