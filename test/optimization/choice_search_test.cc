@@ -77,7 +77,8 @@ TEST(ChoiceSearch, WholeNumbersOfAQuadraticAreNotTheRoundedOnes) {
 
 TEST(ChoiceSearch, CombinationsWhoseSearchEndedEarlyAreCounted) {
   const std::string study = squares(
-      "x: {choice: [1, 2]}, a: {initial: -1.2, lower: -9, upper: 9}, b: {initial: 1.0, lower: -9, "
+      "x: {initial: 1, choice: [1, 2]}, a: {initial: -1.2, lower: -9, upper: 9}, b: {initial: 1.0, "
+      "lower: -9, "
       "upper: 9}",
       {"x - 1.4", "10*(b - a**2)", "1 - a"});
   const OptimizationResult whole = optimize(cart(study));
