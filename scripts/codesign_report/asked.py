@@ -31,7 +31,9 @@ KINDS = (("integral", "integral over the run of " + SQUARE),
          ("maximum", "weight \u00b7 largest signal \u2212 reference"),
          ("minimum", "weight \u00b7 smallest signal \u2212 reference"),
          ("arrival", "weight \u00b7 first time after which signal \u2212 reference stays in the band"),
-         ("dwell", "weight \u00b7 time of signal \u2212 reference in the band"))
+         ("dwell", "weight \u00b7 time of signal \u2212 reference in the band"),
+         ("loop", "weight \u00b7 this number of the loop about rest"),
+         ("poles", "weight \u00b7 this number of the poles about rest"))
 MEASURES = ("peak", "stroke", "maximum", "minimum", "arrival", "dwell")
 
 
@@ -45,6 +47,19 @@ def interval_text(item):
     return "".join(f", {key} {text_of(item[key])}" for key in ("band", "after", "before") if key in item)
 
 
+def counted(words, item):
+    """How a term counts: its loss in place of the square."""
+    loss = item.get("loss", "square")
+    return words if loss == "square" else words.replace(SQUARE, f"weight \u00b7 {text_of(loss)} of (signal \u2212 reference)")
+
+
+def linear_name(item):
+    """What a bound on, or a term of a loop or of poles is about, as the results name it; empty for others."""
+    if "loop" in item:
+        return f"loop {text_of(item['loop'])}, {text_of(item.get('measure', ''))}"
+    return f"poles, {text_of(item['poles'])}" if "poles" in item else ""
+
+
 def objective_terms(study):
     """The terms of the objective: when they count, signal, reference, weight."""
     objective = study.get("objective")
@@ -53,7 +68,7 @@ def objective_terms(study):
     for kind, words in KINDS:
         if kind == "terminal" and in_postures(study):
             words = "in the last posture, " + SQUARE
-        terms += [Term(words + interval_text(item), text_of(item.get("signal", "")), text_of(item.get("reference", 0)), text_of(item.get("weight", 1)))
+        terms += [Term(counted(words, item) + interval_text(item), linear_name({"poles": item.get("measure", "")} if kind == "poles" else item) or text_of(item.get("signal", "")), text_of(item.get("reference", 0)), text_of(item.get("weight", 1)))
                   for item in maps(objective.get(kind))]
     return terms
 
@@ -85,7 +100,7 @@ def bounds(study):
     for item in study.get("constraints") or []:
         if isinstance(item, dict):
             measure = next((key for key in MEASURES if key in item), None)
-            what = f"{measure} of {text_of(item[measure])}{interval_text(item)}" if measure else text_of(item.get("expression", ""))
+            what = f"{measure} of {text_of(item[measure])}{interval_text(item)}" if measure else linear_name(item) or text_of(item.get("expression", ""))
             rows.append((what, bounds_text(item)))
         else:
             rows.append((text_of(item), ""))

@@ -72,6 +72,17 @@ class Parts(unittest.TestCase):
         self.assertEqual(asked.bounds(study), [("a in the last posture", "between [1, 2]"), ("stroke of o", "at least 0.5"),
                                                ("dwell of p, band [0, 1]", "at least 0.3"), ("${a+b}", "at most 1")])
         self.assertEqual(asked.numbers_asked(study), {"s": [1.0, 2.5]})
+
+    def test_losses_loops_and_poles_are_told(self):
+        study = {"objective": {"integral": [{"signal": "e", "loss": "huber"}], "loop": [{"loop": "servo", "measure": "bandwidth", "weight": -1}],
+                               "poles": [{"measure": "growth"}]},
+                 "constraints": [{"loop": "servo", "measure": "phase_margin", "at_least": 0.9}, {"poles": "damping_ratio", "at_least": 0.5}]}
+        self.assertEqual([(term.signal, term.weight) for term in asked.objective_terms(study)],
+                         [("e", "1"), ("loop servo, bandwidth", "-1"), ("poles, growth", "1")])
+        self.assertEqual(asked.objective_terms(study)[0].kind, "integral over the run of weight \u00b7 huber of (signal \u2212 reference)")
+        self.assertEqual(asked.bounds(study), [("loop servo, phase_margin", "at least 0.9"), ("poles, damping_ratio", "at least 0.5")])
+
+    def test_each_kind_of_term_is_told(self):
         for key in ("integral", "sum", "terminal", *asked.MEASURES):
             self.assertEqual(len(asked.objective_terms({"objective": {key: [{"signal": "s"}]}})), 1, key)
             self.assertEqual(signals.used_signals({"constraints": [{key: "s"}]}), {"s"} if key in asked.MEASURES else set())
