@@ -247,7 +247,9 @@ Trial SearchTrials::note(const EnsembleEvaluation& all, const Eigen::VectorXd& r
     trial.gradient_norm = scaling_.gradient_norm(evaluation.gradient);
     note_reaches(evaluation);
     note_influences(all.gradients);
-    for (const Extremes& extremes : all.extremes) note_influences(extremes.gradients);
+    // Of several objectives one may watch signals where another one has none.
+    for (const Extremes& extremes : all.extremes)
+      if (extremes.values.size() > 0) note_influences(extremes.gradients);
     note_change(all, rho);
     event_changes_.note(rho, evaluation.events);
     take_best(all, rho);
