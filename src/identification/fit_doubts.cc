@@ -43,6 +43,20 @@ bool is_fit_hindered(const IdentificationResult& result) {
   return 2 * result.failed_evaluations > result.evaluations;
 }
 
+std::string unexplained_sentence(const std::string& who, const std::string& output,
+                                 const std::string& mistake) {
+  return who + " does not explain " + output + ": " + mistake;
+}
+
+/// @param joint whose recorded effort drives the motion; empty: efforts are compared
+std::string explained_sentence(const std::string& who, const OutputFit& fit,
+                               const std::string& joint, const std::string& mistake) {
+  return who + " explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
+         fit.joint + ": sign, unit, order?" +
+         (!joint.empty() && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
+         (mistake.empty() ? "" : " " + mistake);
+}
+
 }  // namespace
 
 Warnings unexplained_outputs(const IdentificationDescription& options,
@@ -59,12 +73,8 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
     const std::string mistake = doubt == doubts.end() ? "" : sentence_of(*doubt);
     const bool is_filter = doubt != doubts.end() && doubt->cutoff > 0.0,
                is_hindered = !is_filter && mistake.empty() && is_fit_hindered(result);
-    std::string sentence =
-        who + " explains " + readable(100.0 * std::max(0.0, fit.explained), 2) + " % of " +
-        fit.joint + ": sign, unit, order?" +
-        (is_motion && !mistake.empty() ? " the recorded effort of " + joint + ":" : "") +
-        (mistake.empty() ? "" : " " + mistake);
-    if (is_filter) sentence = who + " does not explain " + fit.joint + ": " + mistake;
+    std::string sentence = explained_sentence(who, fit, is_motion ? joint : "", mistake);
+    if (is_filter) sentence = unexplained_sentence(who, fit.joint, mistake);
     if (is_hindered)
       sentence =
           "most points of the fit could not be evaluated, and the best of the others explains less "

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "identification/effort/driven_system.h"
 #include "identification/fit/fit_variables.h"
 #include "identification/fit/identification_result.h"
 #include "identification/fit/residual_source.h"

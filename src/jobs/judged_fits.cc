@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "jobs/judged_fits.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -50,17 +51,20 @@ void add_criterion(const ModelComparison& comparison, Json* object) {
   to["probability"] = comparison.probability;
 }
 
+std::string output_sentence(const std::string& set, const std::string& name, const Json& output) {
+  const auto share = [&output](int k) {
+    return readable(100.0 * std::max(0.0, output.at("explained").at(k).get<double>()), 3) + " %";
+  };
+  return set + ", " + name + ": root mean square of the residuals " +
+         readable(output.at("rms").at(0).get<double>()) + " there, " +
+         readable(output.at("rms").at(1).get<double>()) + " here; explained " + share(0) + ", " +
+         share(1);
+}
+
 void append_outputs(const std::string& set, const Json& outputs,
                     std::vector<std::string>* sentences) {
-  for (const auto& [name, output] : outputs.items()) {
-    const auto share = [&output = output](int k) {
-      return readable(100.0 * std::max(0.0, output.at("explained").at(k).get<double>()), 3) + " %";
-    };
-    sentences->push_back(set + ", " + name + ": root mean square of the residuals " +
-                         readable(output.at("rms").at(0).get<double>()) + " there, " +
-                         readable(output.at("rms").at(1).get<double>()) + " here; explained " +
-                         share(0) + ", " + share(1));
-  }
+  for (const auto& [name, output] : outputs.items())
+    sentences->push_back(output_sentence(set, name, output));
 }
 
 std::string nested_sentence(const Json& comparison) {
@@ -95,7 +99,7 @@ JudgedModel read_judged_model(const SourceText& json) {
     model.is_squares = root.at("loss") == "square";
     model.data = outputs_of(root, "data");
     model.holdout = outputs_of(root, "holdout");
-    if (!model.data.empty()) model.samples = root.at("data").at("samples").get<long>();
+    if (!model.data.empty()) model.samples = root.at("data").at("samples").get<std::int64_t>();
     if (model.data.empty() && model.holdout.empty()) fail(json, "no outputs in data or holdout");
     return model;
   } catch (const Json::exception& error) {

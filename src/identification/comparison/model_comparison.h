@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,7 @@ struct JudgedModel {
   int rank = 0;                      ///< how many of them, or of their combinations, are known
   double inflation = 1.0;            ///< IdentificationResult::inflation
   bool is_squares = true;            ///< whether the loss is a sum of squares, thus a likelihood
-  long samples = 0;                  ///< times in the data
+  std::int64_t samples = 0;          ///< times in the data
   std::vector<JudgedOutput> data, holdout;
 };
 

@@ -115,7 +115,7 @@ void read_observer_poles(const YamlValue& value, ObserverDescription* observer) 
 }
 
 Quantity read_observer_number(const YamlValue& value, const ParameterTable& table) {
-  const Quantity quantity = read_quantity(value, table);
+  Quantity quantity = read_quantity(value, table);
   if (!(quantity.nominal() > 0.0))
     value.fail("this must be positive at the parameters' start", "more than 0");
   return quantity;
