@@ -259,25 +259,13 @@ class ChoiceSearch {
     describe_scenarios(problem_, ensemble_, cancel_, &meter_, result);
   }
 
-  /// A parameter that is fixed in a search lies on both of its bounds, which tells nothing.
+  /// Multipliers of the bounds between which a search has fixed a parameter tell nothing.
   void forget_bounds(OptimizationResult* result) const {
-    std::set<std::string> chosen;
     for (const ChoiceList& list : space_.lists)
-      for (std::size_t c = 0; c < list.places.size(); ++c) {
-        chosen.insert(study_.parameters[to_index(list.choice->parameters[c])].name);
-        if (result->optimality.bound_multipliers.size() > list.places[c])
-          result->optimality.bound_multipliers[list.places[c]] = 0.0;
-      }
+      for (const auto place : list.places)
+        if (result->optimality.bound_multipliers.size() > place)
+          result->optimality.bound_multipliers[place] = 0.0;
     if (is_all_chosen()) result->optimality.stationarity = std::numeric_limits<double>::quiet_NaN();
-    Warnings kept;
-    for (const Warning& warning : result->warnings) {
-      const bool is_of_choice = warning.code == "parameter_on_bound";
-      const bool is_chosen = std::any_of(chosen.begin(), chosen.end(), [&](const auto& name) {
-        return warning.message.find(name + ":") != std::string::npos;
-      });
-      if (!is_of_choice || !is_chosen) kept.push_back(warning);
-    }
-    result->warnings = std::move(kept);
     for (std::size_t k = 0; k < influences_.size(); ++k)
       result->optimality.influences[k] = influences_[k];
   }

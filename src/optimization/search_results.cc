@@ -114,9 +114,11 @@ bool is_on(double value, double bound, const Parameter& parameter) {
 }
 
 // Warns only if the objective falls beyond the bound while all constraints are kept, so that the
-// bound determines the value.
+// bound determines the value. A parameter that a search has fixed lies on both of its bounds, which
+// tells nothing.
 void add_bound_warning(const Parameter& parameter, double value, double multiplier,
                        double objective, Warnings* warnings) {
+  if (parameter.lower == parameter.upper) return;
   const bool at_lower = is_on(value, parameter.lower, parameter) && multiplier > 0.0;
   const bool at_upper = is_on(value, parameter.upper, parameter) && multiplier < 0.0;
   const double worth = kWidening * std::abs(multiplier),

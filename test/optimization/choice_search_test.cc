@@ -75,6 +75,15 @@ TEST(ChoiceSearch, WholeNumbersOfAQuadraticAreNotTheRoundedOnes) {
   for (const Warning& warning : result.warnings) EXPECT_NE(warning.code, "parameter_on_bound");
 }
 
+TEST(ChoiceSearch, BoundsOfOtherParametersAreToldWhateverTheirNames) {
+  const OptimizationResult result = optimize(
+      cart(squares("a: {initial: 1, choice: [1, 2]}, beta: {initial: 0.5, lower: 0, upper: 1}",
+                   {"a - 1.4", "beta - 3"})));
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_EQ(result.warnings[0].code, "parameter_on_bound");
+  EXPECT_NE(result.warnings[0].message.find("beta"), std::string::npos);
+}
+
 TEST(ChoiceSearch, CombinationsWhoseSearchEndedEarlyAreCounted) {
   const std::string study = squares(
       "x: {initial: 1, choice: [1, 2]}, a: {initial: -1.2, lower: -9, upper: 9}, b: {initial: 1.0, "
