@@ -197,7 +197,7 @@ int identify(const Arguments& arguments, const Console& console) {
   if (console.loaded) console.loaded();
   IdentificationResult result = judged_or_fitted(arguments, problem, recordings, console);
   append(warnings, &result.warnings);
-  const bool known = !result.data.empty() || !result.holdout.empty();
+  const bool known = !result.outputs().empty();
   if (!arguments.json && known) print_result(problem, result, console.out);
   Json object = identification_json(problem, result);
   if (other && known) compare(arguments, *other, &object, console.out);

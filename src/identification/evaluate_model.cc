@@ -1,11 +1,10 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "description/study.h"
-#include "identification/effort/effort_doubts.h"
+#include "identification/effort/effort_residuals.h"
 #include "identification/fit/given_motion.h"
 #include "identification/fit_doubts.h"
 #include "identification/identify.h"
@@ -14,7 +13,6 @@
 #include "math/cpu_timer.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
-#include "text/cancel.h"
 
 namespace codesign {
 namespace {
@@ -63,21 +61,6 @@ Status judge(const Problem& problem, const FitVariables& variables,
   return status;
 }
 
-/// Doubts about the data, or without them about the holdout.
-Warnings doubts_of(const Problem& problem, const StudyRecordings& recordings,
-                   const IdentificationResult& result, const std::atomic<bool>* cancel) {
-  IdentificationResult judged = result;
-  if (judged.data.empty()) judged.data = judged.holdout;
-  double explained = 1.0;
-  for (const OutputFit& fit : judged.data) explained = std::min(explained, fit.explained);
-  std::vector<EffortDoubt> doubts;
-  if (!is_set(cancel))
-    doubts = find_effort_doubts(
-        problem, recordings.data.empty() ? recordings.holdout : recordings.data, explained);
-  Status unused;  // an evaluation that finds a model wrong has not failed
-  return unexplained_outputs(*study_of(problem).identification, judged, doubts, &unused);
-}
-
 }  // namespace
 
 IdentificationResult evaluate_model(const Problem& problem, const StudyRecordings& given,
@@ -111,7 +94,10 @@ IdentificationResult evaluate_model(const Problem& problem, const StudyRecording
   result.holdout = std::move(holdout.outputs);
   result.holdout_series = std::move(holdout.series);
   result.holdout_samples = holdout.samples;
-  Warnings doubts = doubts_of(problem, recordings, result, cancel);
+  Status unused;  // an evaluation that finds a model wrong has not failed
+  Warnings doubts =
+      doubts_about(problem, recordings.data.empty() ? recordings.holdout : recordings.data, result,
+                   cancel, &unused);
   append(result.warnings, &doubts);
   result.warnings = std::move(doubts);
   result.evaluations = 1;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "description/study.h"
+#include "problem/load_problem.h"
+#include "text/cancel.h"
 #include "text/number_text.h"
 
 namespace codesign {
@@ -30,7 +33,7 @@ std::vector<EffortDoubt> doubts_despite_fit(const IdentificationDescription& opt
   std::vector<EffortDoubt> left;
   for (const EffortDoubt& doubt : doubts) {
     double explained = 1.0;
-    for (const OutputFit& fit : result.data)
+    for (const OutputFit& fit : result.outputs())
       if (joint_of(options, fit) == doubt.joint) explained = std::min(explained, fit.explained);
     if (explained < kExplainedHalf) continue;  // told with what the fit does not explain
     if (doubt.is_unit || doubt.mended >= explained + kClearly) left.push_back(doubt);
@@ -59,13 +62,23 @@ std::string explained_sentence(const std::string& who, const OutputFit& fit,
 
 }  // namespace
 
+Warnings doubts_about(const Problem& problem, const std::vector<JointRecording>& recordings,
+                      const IdentificationResult& result, const std::atomic<bool>* cancel,
+                      Status* failure) {
+  double explained = 1.0;
+  for (const OutputFit& fit : result.outputs()) explained = std::min(explained, fit.explained);
+  std::vector<EffortDoubt> doubts;
+  if (!is_set(cancel)) doubts = find_effort_doubts(problem, recordings, explained);
+  return unexplained_outputs(*study_of(problem).identification, result, doubts, failure);
+}
+
 Warnings unexplained_outputs(const IdentificationDescription& options,
                              const IdentificationResult& result,
                              const std::vector<EffortDoubt>& doubts, Status* failure) {
   Warnings warnings;
   const bool is_motion = options.residual == ResidualKind::kMotion;
   const std::string who = result.termination == kEvaluated ? "the model" : "the fit";
-  for (const OutputFit& fit : result.data) {
+  for (const OutputFit& fit : result.outputs()) {
     if (!(fit.explained < kExplainedHalf)) continue;
     const std::string joint = joint_of(options, fit);
     const auto doubt = std::find_if(doubts.begin(), doubts.end(),
@@ -140,7 +153,7 @@ Warnings warnings_of(const IdentificationDescription& options, const Identificat
                     "not that the delay is drawn to where samples are interpolated most smoothly",
                 readable(number.value),
                 "a lower identify.filter.residual_cutoff, where the noise begins"}));
-  for (const OutputFit& fit : result.data)
+  for (const OutputFit& fit : result.outputs())
     if (options.intervals.noise == NoiseModel::kWhite && fit.whiteness.probability < kWhiteBelow)
       warnings.push_back(
           warn("correlated_residuals",

@@ -73,20 +73,6 @@ Status judge_holdout(const FitVariables& variables, const ResidualFit& fit, cons
   return status;
 }
 
-/// Warnings about efforts or motions that the fit does not explain, and about recordings that
-/// contradict the model as it stands although the fit explains them.
-Warnings warnings_of_unexplained(const Problem& problem,
-                                 const std::vector<JointRecording>& recordings,
-                                 const IdentificationResult& result,
-                                 const std::atomic<bool>* cancel, Status* failure) {
-  const IdentificationDescription& options = *study_of(problem).identification;
-  double explained = 1.0;
-  for (const OutputFit& fit : result.data) explained = std::min(explained, fit.explained);
-  std::vector<EffortDoubt> doubts;
-  if (!is_set(cancel)) doubts = find_effort_doubts(problem, recordings, explained);
-  return unexplained_outputs(options, result, doubts, failure);
-}
-
 /// The fit knows bounds alone, so that constraints among parameters are looked at behind it.
 Warnings unmet_constraints(const Study& study, const std::vector<double>& parameters) {
   Warnings warnings;
@@ -117,7 +103,7 @@ void add_doubts(const Problem& problem, const std::vector<JointRecording>& data,
                 bool is_rest_decided, const std::atomic<bool>* cancel,
                 IdentificationResult* result) {
   Status unexplained;
-  Warnings found = warnings_of_unexplained(problem, data, *result, cancel, &unexplained);
+  Warnings found = doubts_about(problem, data, *result, cancel, &unexplained);
   append(warnings_of(*study_of(problem).identification, *result), &found);
   append(unmet_constraints(study_of(problem), result->parameters), &found);
   append(result->warnings, &found);

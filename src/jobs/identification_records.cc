@@ -185,7 +185,7 @@ void add_numbers(const Problem& problem, const IdentificationResult& result, Jso
 
 Json identification_json(const Problem& problem, const IdentificationResult& result) {
   Json object = record_json(result);
-  if (result.data.empty() && result.holdout.empty()) return object;
+  if (result.outputs().empty()) return object;
   object["parameters"] = parameters_json(problem, result.parameters);
   if (!result.numbers.empty()) add_numbers(problem, result, &object);
   object["loss"] = study_of(problem).identification->loss.kind->name;
@@ -257,7 +257,7 @@ std::string identification_report(const Problem& problem, const IdentificationRe
 
 std::vector<std::string> residual_columns(const IdentificationResult& result) {
   std::vector<std::string> columns = {"set", "recording", "time"};
-  for (const OutputFit& fit : result.data.empty() ? result.holdout : result.data) {
+  for (const OutputFit& fit : result.outputs()) {
     columns.push_back(fit.joint + "/recorded");
     columns.push_back(fit.joint + "/computed");
   }
@@ -295,8 +295,7 @@ IdentificationShow identification_show(const Problem& problem, const Identificat
                           result.data_series,
                           result.holdout_series,
                           {}};
-  for (const OutputFit& fit : result.data.empty() ? result.holdout : result.data)
-    show.joints.push_back(fit.joint);
+  for (const OutputFit& fit : result.outputs()) show.joints.push_back(fit.joint);
   return show;
 }
 

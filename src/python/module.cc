@@ -281,9 +281,7 @@ void add_jobs(py::module_* module) {
       .def_property_readonly(
           "warnings", [](const Identified& of) { return to_python(to_json(of.result.warnings)); })
       .def_property_readonly("has_point",
-                             [](const Identified& of) {
-                               return !of.result.data.empty() || !of.result.holdout.empty();
-                             })
+                             [](const Identified& of) { return !of.result.outputs().empty(); })
       .def_property_readonly("covariance",
                              [](const Identified& of) { return to_array(of.result.covariance); })
       .def_property_readonly("time",

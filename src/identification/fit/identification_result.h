@@ -80,6 +80,8 @@ struct IdentificationResult {
   std::vector<BaseParameter> combinations;  ///< what the data determine of these numbers
   std::vector<OutputFit> data,
       holdout;  ///< one per output; the holdout is empty if the study names none
+  /// of the data, or of the holdout where that alone was judged; empty if the start failed
+  const std::vector<OutputFit>& outputs() const { return data.empty() ? holdout : data; }
   FittedSeries data_series, holdout_series;
   Eigen::Index samples = 0, holdout_samples = 0;  ///< number of times, not of residuals
   int lag = 0;                                    ///< lag of the noise model, in samples
