@@ -196,8 +196,10 @@ void judge_numbers(const FitVariables& variables, const IdentificationDescriptio
       result->covariance(columns[k], columns[j]) = known.covariance(i, to_signed(j));
   }
   result->rank = known.identifiability.rank;
-  result->inflation = inflation_of(
-      known, covariance_of(fit, options.loss, source, white(options), delays, columns));
+  if (options.intervals.noise != NoiseModel::kWhite)
+    result->inflation = inflation_of(
+        known, parameter_covariance(weighted.residuals, weighted.jacobian, source.lengths(),
+                                    white(options), eliminated_from(source)));
   result->lag = known.lag;
   judge_combinations(weighted, fit, source, options.intervals, columns, names, known, result);
 }

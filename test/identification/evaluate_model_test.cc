@@ -8,6 +8,7 @@
 #include "identification/motion_rig.h"
 #include "identification/swinging_arm.h"
 #include "problem/load_problem.h"
+#include "text/number_text.h"
 
 namespace codesign {
 namespace {
@@ -63,6 +64,33 @@ TEST(EvaluateModel, OfFittedValuesIsTheFit) {
   EXPECT_NEAR(judged.data[0].rms, fit.data[0].rms, 1e-9 * fit.data[0].rms);
   EXPECT_NEAR(judged.data[0].explained, fit.data[0].explained, 1e-12);
   EXPECT_NEAR(judged.holdout[0].rms, fit.holdout[0].rms, 1e-9 * fit.holdout[0].rms);
+}
+
+/// Segments begin at the states that fit best, in an evaluation as in a fit.
+TEST(EvaluateModel, OfMotionsIsTheFitToo) {
+  MotionRig rig;
+  rig.noise = 1e-3;
+  StudyRecordings recordings;
+  recordings.data = {record_pendulum(rig)};
+  const std::string names = "inertia: {}, viscous: {}, dry: {}", blocks = motion_servo();
+  const IdentificationResult fit =
+      identify(motion_problem(blocks, "", names), recordings, {}, nullptr);
+  ASSERT_TRUE(fit.status.ok()) << fit.status.cause;
+  std::string values;
+  for (const IdentifiedNumber& number : fit.numbers)
+    values += (values.empty() ? "" : ", ") + number.name +
+              ": {initial: " + to_decimal(number.value) + "}";
+  const IdentificationResult judged =
+      evaluate_model(motion_problem(blocks, "", values), recordings, nullptr);
+  ASSERT_TRUE(judged.status.ok()) << judged.status.cause;
+  ASSERT_EQ(judged.data.size(), fit.data.size());
+  for (std::size_t k = 0; k < fit.data.size(); ++k) {
+    // The recorded effort has no noise: its residuals are the errors of the integration.
+    EXPECT_NEAR(judged.data[k].rms, fit.data[k].rms,
+                1e-3 * fit.data[k].rms + 1e-8 * fit.data[k].recorded)
+        << fit.data[k].joint;
+    EXPECT_LT(judged.data[k].rms, 2e-3) << "the noise";
+  }
 }
 
 TEST(EvaluateModel, TakesAHoldoutAloneAndNothingTuned) {
