@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "identification/effort/effort_doubts.h"
 #include "identification/fit/inertial_numbers.h"
 #include "math/arrays.h"
 #include "math/dense.h"
