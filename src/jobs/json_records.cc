@@ -117,23 +117,7 @@ Json parameter_table(const Problem& problem, const OptimizationResult& result) {
   return table;
 }
 
-Json differences_json(const IndependentCheck& check) {
-  if (!check.is_known()) return {{"unknown", describe(check.status)}};
-  Json object = {{"derivative", check.derivative},
-                 {"error", check.error},
-                 {"gradient", check.along},
-                 {"allowed", check.allowed},
-                 {"size", check.size},
-                 {"disagrees", check.disagrees()},
-                 {"objective", check.objective},
-                 {"evaluations", check.evaluations},
-                 {"cpu_seconds", check.statistics.cpu_seconds}};
-  if (check.longest_step == 0.0) return object;
-  object["method"] = check.method;
-  object["relative_tolerance"] = check.relative_tolerance;
-  object["maximum_step"] = check.longest_step;
-  return object;
-}
+Json differences_json(const IndependentCheck& check) { return record_json(check); }
 
 namespace {
 

@@ -56,8 +56,7 @@ Json loops_json(const LinearModel& model) {
     if (loop.why_not.empty()) {
       visit_margins(loop.margins,
                     [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
-                      if (margin)
-                        entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
+                      if (margin) entry[name] = record_json(*margin);
                     });
       entry["response"] = response_of(loop);
     } else {

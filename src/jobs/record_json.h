@@ -66,6 +66,10 @@ template <NonFinite non_finite, class T>
 void set_value(const char* name, const UnlessEmpty<T>& value, Json* object) {
   if (!value.value.empty()) (*object)[name] = value.value;
 }
+template <NonFinite non_finite, class T>
+void set_value(const char* name, const std::optional<T>& value, Json* object) {
+  if (value) (*object)[name] = value_json<non_finite>(*value);
+}
 
 inline void read_value(const Json& json, double* value) { *value = to_number(json); }
 template <class T>

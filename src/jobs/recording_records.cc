@@ -7,8 +7,10 @@
 #include "description/study.h"
 #include "equations/equations.h"
 #include "excitation/excitation_result.h"
+#include "jobs/fit_fields.h"
 #include "jobs/identification_records.h"
 #include "jobs/json.h"
+#include "jobs/record_json.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
@@ -17,22 +19,6 @@ namespace codesign {
 namespace {
 
 constexpr int kFactorDigits = 3;  // of a predicted factor
-
-Json predicted_json(const PredictedNumber& number) {
-  return {
-      {"nominal", number.nominal},
-      {"unit", number.unit},
-      {"determined", number.is_determined},
-      {"before", {{"deviation", number.deviation_before}, {"half_interval", number.half_before}}},
-      {"after", {{"deviation", number.deviation}, {"half_interval", number.half}}}};
-}
-
-Json limit_json(const KeptLimit& limit) {
-  return {{"lower", limit.limits.lower},
-          {"upper", limit.limits.upper},
-          {"lowest", limit.reached.lowest},
-          {"highest", limit.reached.highest}};
-}
 
 Json trajectory_json(const ExcitationDescription& description, const ExcitationResult& result) {
   Json object;
@@ -77,19 +63,7 @@ RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotio
   return summary;
 }
 
-Json to_json(const std::vector<RecordingSummary>& recordings) {
-  Json list = Json::array();
-  for (const RecordingSummary& summary : recordings)
-    list.push_back({{"recording", summary.element},
-                    {"file", summary.file},
-                    {"samples", summary.samples},
-                    {"rate", summary.rate},
-                    {"from", summary.from},
-                    {"to", summary.to},
-                    {"fitted", summary.fitted},
-                    {"measured", summary.measured}});
-  return list;
-}
+Json to_json(const std::vector<RecordingSummary>& recordings) { return records_json(recordings); }
 
 Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   Json object;
@@ -99,22 +73,16 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   if (result.numbers.empty()) return object;
   object["parameters"] = parameters_json(problem, problem.parameters());
   for (const PredictedNumber& number : result.numbers)
-    object["predicted"][number.name] = predicted_json(number);
+    object["predicted"][number.name] = record_json(number);
   object["level"] = study_of(problem).identification->intervals.level;
   object["volume_factor"] = result.volume_factor();
   object["mean_factor"] = factor_of_one(result);
   object["undetermined"] = result.undetermined;
   if (result.points.joints.empty()) return object;
   for (const KeptLimit& limit : result.limits)
-    object["limits"][limit.limits.name] = limit_json(limit);
+    object["limits"][limit.limits.name] = record_json(limit);
   object["trajectory"] = trajectory_json(*study_of(problem).excitation, result);
-  Json starts = Json::array();
-  for (const ExcitationStart& start : result.starts)
-    starts.push_back({{"initial_criterion", start.initial_criterion},
-                      {"criterion", start.criterion},
-                      {"evaluations", start.evaluations},
-                      {"termination", start.termination}});
-  object["starts"] = std::move(starts);
+  object["starts"] = records_json(result.starts);
   return object;
 }
 
