@@ -19,6 +19,7 @@
 #include "optimization/local_search.h"
 #include "optimization/scaling.h"
 #include "optimization/search_results.h"
+#include "optimization/search_set.h"
 #include "optimization/search_trials.h"
 #include "optimization/worst_rounds.h"
 #include "problem/load_problem.h"
@@ -42,28 +43,20 @@ class ChoiceSearch {
  public:
   ChoiceSearch(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
                const std::atomic<bool>* cancel)
-      : problem_(problem),
-        study_(study_of(problem)),
-        options_(options),
-        cancel_(cancel),
-        own_meter_(options.max_evaluations, hooks.progress),
-        meter_(hooks.meter ? *hooks.meter : own_meter_),
-        trial_(counted_trials(hooks, &meter_)),
-        observer_(trial_),
-        ensemble_(problem, 1, records_of(hooks, &meter_)),
-        space_{study_, choice_lists(study_)},
+      : set_(problem, options, hooks, cancel),
+        space_{set_.study, choice_lists(set_.study)},
         whole_(all_rows(space_)) {
     choice_.combinations = 1.0;
     for (const auto& rows : whole_) choice_.combinations *= static_cast<double>(rows.size());
   }
 
   OptimizationResult run() {
-    check_search(study_, options_, ensemble_);
-    meter_.begin(SearchStage::kSearching,
-                 static_cast<std::int64_t>(std::min(choice_.combinations, 1e9)),
-                 ensemble_.scenarios().size());
+    check_search(set_.study, set_.options, set_.ensemble);
+    set_.meter.begin(SearchStage::kSearching,
+                     static_cast<std::int64_t>(std::min(choice_.combinations, 1e9)),
+                     set_.ensemble.scenarios().size());
     // The first search starts from the study's start, whose objective is the initial one.
-    search_at(nearest_rows(space_, whole_, problem_.start()), problem_.start());
+    search_at(nearest_rows(space_, whole_, set_.problem.start()), set_.problem.start());
     if (choice_.combinations <= kMostListedCombinations)
       search_all();
     else
@@ -74,7 +67,7 @@ class ChoiceSearch {
  private:
   /// The study with the bounds of a part.
   Study bounded(const ChoicePart& part, VectorXd* rho) const {
-    Study study = study_;
+    Study study = set_.study;
     for (std::size_t k = 0; k < space_.lists.size(); ++k)
       for (std::size_t c = 0; c < space_.lists[k].places.size(); ++c) {
         Parameter& parameter = study.parameters[to_index(space_.lists[k].choice->parameters[c])];
@@ -95,24 +88,25 @@ class ChoiceSearch {
   bool is_all_chosen() const {
     std::size_t chosen = 0;
     for (const ChoiceList& list : space_.lists) chosen += list.places.size();
-    return chosen == study_.tuned.size();
+    return chosen == set_.study.tuned.size();
   }
 
   OptimizationResult search(const ChoicePart& part, VectorXd rho, bool is_real) {
     const Study study = bounded(part, &rho);
-    const TrialObserver observer = observer_.of(++searches_, is_real);
+    const TrialObserver observer = set_.observer.of(++searches_, is_real);
     OptimizationResult result;
     if (is_real && is_all_chosen()) {
       const Scaling scaling(study);
-      SmoothProgram program(ensemble_);
-      SearchTrials trials(study, options_, ensemble_, observer, cancel_, scaling, &program);
+      SmoothProgram program(set_.ensemble);
+      SearchTrials trials(study, set_.options, set_.ensemble, observer, set_.cancel, scaling,
+                          &program);
       trials.start(rho);
       trials.result().termination = "success";
       trials.evaluate(rho, Derivatives::kGradient);
       trials.conclude("");
       result = std::move(trials.result());
     } else {
-      result = search_locally(study, options_, rho, ensemble_, observer, cancel_);
+      result = search_locally(study, set_.options, rho, set_.ensemble, observer, set_.cancel);
     }
     cost_ += result.cost;
     for (std::size_t k = 0; k < result.optimality.influences.size(); ++k)
@@ -121,20 +115,19 @@ class ChoiceSearch {
       else if (result.optimality.influences[k])
         influences_[k] = true;
     if (result.status.is_interrupted()) interruption_ = result.status;
-    meter_.end_search(result.cost.evaluations);
+    set_.meter.end_search(result.cost.evaluations);
     return result;
   }
 
   bool goes_on() {
-    if (interruption_.ok() && (is_set(cancel_) || observer_.is_stopped()))
-      interruption_ = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+    if (interruption_.ok() && set_.is_stopped()) interruption_ = cancelled_search();
     return interruption_.ok();
   }
 
   /// (whether it violates constraints, objective); no point comes last.
   std::pair<int, double> rank(const OptimizationResult& result) const {
     if (result.best.gradient.size() == 0) return {2, kInfinite};
-    return {meets_constraints(study_, result) ? 0 : 1, result.best.objective};
+    return {meets_constraints(set_.study, result) ? 0 : 1, result.best.objective};
   }
 
   double best_objective() const {
@@ -164,7 +157,7 @@ class ChoiceSearch {
     for (bool is_left = true; is_left && goes_on();) {
       ChoicePart part;
       for (const std::size_t digit : digits) part.push_back({digit});
-      search_at(part, best_ ? best_->best.rho : problem_.start());
+      search_at(part, best_ ? best_->best.rho : set_.problem.start());
       std::size_t k = 0;
       while (k < digits.size() && ++digits[k] == whole_[k].size()) digits[k++] = 0;
       is_left = k < digits.size();
@@ -175,14 +168,14 @@ class ChoiceSearch {
   /// Differences within the tolerance of a search do not tell parts apart.
   bool is_worse(double bound) const {
     const double best = best_objective();
-    return bound >= best - options_.relative_tolerance * std::abs(best);
+    return bound >= best - set_.options.relative_tolerance * std::abs(best);
   }
 
   /// Best first. The bound of a part is the minimum of its relaxation, if that search ended at a
   /// stationary point, else that of the part that it was split from.
   void branch() {
     std::vector<Node> open;
-    add(whole_, {{}, problem_.start(), -kInfinite}, &open);
+    add(whole_, {{}, set_.problem.start(), -kInfinite}, &open);
     while (!open.empty() && goes_on()) {
       const auto next = std::min_element(
           open.begin(), open.end(), [](const Node& a, const Node& b) { return a.bound < b.bound; });
@@ -225,8 +218,8 @@ class ChoiceSearch {
   OptimizationResult conclude() {
     OptimizationResult result = best_ ? std::move(*best_) : OptimizationResult();
     if (!best_) {
-      result.initial.rho = result.best.rho = problem_.start();
-      result.optimality.influences.assign(study_.tuned.size(), false);
+      result.initial.rho = result.best.rho = set_.problem.start();
+      result.optimality.influences.assign(set_.study.tuned.size(), false);
       result.status = interruption_;
     }
     if (result.best.gradient.size() > 0 && goes_on()) confirm(&result);
@@ -252,11 +245,11 @@ class ChoiceSearch {
     VectorXd rho = result->best.rho;
     const Study study = bounded(best_part_, &rho);
     const SearchCost before = result->cost;
-    add_worst_points(problem_, study, options_, observer_.of(searches_), cancel_, &ensemble_,
-                     result);
+    add_worst_points(set_.problem, study, set_.options, set_.observer.of(searches_), set_.cancel,
+                     &set_.ensemble, result);
     cost_.evaluations += result->cost.evaluations - before.evaluations;
-    if (!is_all_chosen()) confirm_stop(study, options_, ensemble_, cancel_, result);
-    describe_scenarios(problem_, ensemble_, cancel_, &meter_, result);
+    if (!is_all_chosen()) confirm_stop(study, set_.options, set_.ensemble, set_.cancel, result);
+    describe_scenarios(set_.problem, set_.ensemble, set_.cancel, &set_.meter, result);
   }
 
   /// Multipliers of the bounds between which a search has fixed a parameter tell nothing.
@@ -270,15 +263,7 @@ class ChoiceSearch {
       result->optimality.influences[k] = influences_[k];
   }
 
-  const Problem& problem_;
-  const Study& study_;
-  const OptimizerOptions& options_;
-  const std::atomic<bool>* cancel_;
-  ProgressMeter own_meter_;
-  ProgressMeter& meter_;
-  const TrialObserver trial_;
-  SharedObserver observer_;
-  Ensemble ensemble_;
+  SearchSet set_;
   const ChoiceSpace space_;
   const ChoicePart whole_;
   std::set<ChoicePart> known_;  ///< combinations that were searched

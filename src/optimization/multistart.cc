@@ -18,6 +18,7 @@
 #include "optimization/scaling.h"
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
+#include "optimization/search_set.h"
 #include "optimization/search_trials.h"
 #include "optimization/smooth_program.h"
 #include "optimization/worst_rounds.h"
@@ -45,29 +46,21 @@ class Multistart {
  public:
   Multistart(const Problem& problem, const OptimizerOptions& options, const SearchHooks& hooks,
              const std::atomic<bool>* cancel)
-      : problem_(problem),
-        study_(study_of(problem)),
-        asked_(study_.ensemble.multistart),
-        options_(options),
-        cancel_(cancel),
-        own_meter_(options.max_evaluations, hooks.progress),
-        meter_(hooks.meter ? *hooks.meter : own_meter_),
-        trial_(counted_trials(hooks, &meter_)),
-        observer_(trial_),
-        ensemble_(problem, asked_.screen, records_of(hooks, &meter_)),
-        parameter_rows_(study_, ensemble_.scenarios()),
-        scaling_(study_) {}
+      : set_(problem, options, hooks, cancel, study_of(problem).ensemble.multistart.screen),
+        asked_(set_.study.ensemble.multistart),
+        parameter_rows_(set_.study, set_.ensemble.scenarios()),
+        scaling_(set_.study) {}
 
   OptimizationResult run() {
-    check_search(study_, options_, ensemble_);
+    check_search(set_.study, set_.options, set_.ensemble);
     screen();
     std::vector<OptimizationResult> found = search();
     OptimizationResult result = combine(&found);
     result.multistart.screened = usable_ + unusable_;
     result.multistart.unusable = unusable_;
     result.cost.failed_evaluations += unusable_;
-    if (is_set(cancel_) || observer_.is_stopped()) {
-      result.status = {StatusCode::kCancelled, 0.0, "cancelled; the best point so far is kept"};
+    if (set_.is_stopped()) {
+      result.status = cancelled_search();
       result.termination = "cancelled";
     }
     // mpirun ends the job of a killed rank with the signal that a user's interrupt sends, too; the
@@ -83,9 +76,9 @@ class Multistart {
   /// Draws points until `screen` of them are usable: each round replaces the unusable points of the
   /// round before.
   void screen() {
-    const int dimension = static_cast<int>(study_.tuned.size()),
-              part = std::max(kPart, 16 * ensemble_.engine().workers());
-    meter_.begin(SearchStage::kScreening, asked_.screen, ensemble_.scenarios().size());
+    const int dimension = static_cast<int>(set_.study.tuned.size()),
+              part = std::max(kPart, 16 * set_.ensemble.engine().workers());
+    set_.meter.begin(SearchStage::kScreening, asked_.screen, set_.ensemble.scenarios().size());
     for (std::uint32_t round = 0; round < kRounds && missing() > 0 && goes_on(); ++round) {
       const int count = missing();
       const PointSequence fill =
@@ -95,21 +88,21 @@ class Multistart {
         fill(&unit);
         std::vector<Eigen::VectorXd> points;
         for (Eigen::Index k = 0; k < unit.rows(); ++k)
-          points.push_back(k + drawn == 0 && round == 0 ? problem_.start()
+          points.push_back(k + drawn == 0 && round == 0 ? set_.problem.start()
                                                         : at(unit.row(k).transpose()));
         evaluate(points);
       }
     }
   }
 
-  bool goes_on() const { return !is_set(cancel_) && lost_.ok(); }
+  bool goes_on() const { return !is_set(set_.cancel) && lost_.ok(); }
   int missing() const { return asked_.screen - usable_; }
 
   /// A point of the unit cube within the bounds.
   Eigen::VectorXd at(const Eigen::VectorXd& u) const {
     Eigen::VectorXd rho(u.size());
     for (Eigen::Index k = 0; k < u.size(); ++k) {
-      const Parameter& p = tuned_parameter(study_, k);
+      const Parameter& p = tuned_parameter(set_.study, k);
       rho[k] = p.lower + u[k] * (p.upper - p.lower);
     }
     return rho;
@@ -119,14 +112,14 @@ class Multistart {
   /// drawn first.
   void evaluate(const std::vector<Eigen::VectorXd>& round) {
     std::vector<EnsembleEvaluation> results(round.size());
-    side_by_side(round.size(), ensemble_.engine().workers(), [&](std::size_t k) {
-      if (is_set(cancel_)) {
+    side_by_side(round.size(), set_.ensemble.engine().workers(), [&](std::size_t k) {
+      if (is_set(set_.cancel)) {
         results[k].total.status.code = StatusCode::kCancelled;
         return;
       }
-      if (may_begin(study_, parameter_rows_.margins(round[k])))
-        results[k] = ensemble_.evaluate(round[k], false, cancel_);
-      if (results[k].values.size() > 0) meter_.count_point();
+      if (may_begin(set_.study, parameter_rows_.margins(round[k])))
+        results[k] = set_.ensemble.evaluate(round[k], false, set_.cancel);
+      if (results[k].values.size() > 0) set_.meter.count_point();
     });
     for (std::size_t k = 0; k < round.size(); ++k) {
       const Evaluation& total = results[k].total;
@@ -149,13 +142,13 @@ class Multistart {
 
   std::vector<OptimizationResult> search() {
     std::vector<OptimizationResult> found(starts_.size());
-    meter_.begin(SearchStage::kSearching, static_cast<std::int64_t>(starts_.size()),
-                 ensemble_.scenarios().size());
-    side_by_side(starts_.size(), ensemble_.engine().workers(), [&](std::size_t k) {
-      if (is_set(cancel_) || observer_.is_stopped()) return;
-      found[k] = search_locally(study_, options_, starts_[k].rho, ensemble_,
-                                observer_.of(static_cast<int>(k) + 1), cancel_);
-      meter_.end_search(found[k].cost.evaluations);
+    set_.meter.begin(SearchStage::kSearching, static_cast<std::int64_t>(starts_.size()),
+                     set_.ensemble.scenarios().size());
+    side_by_side(starts_.size(), set_.ensemble.engine().workers(), [&](std::size_t k) {
+      if (set_.is_stopped()) return;
+      found[k] = search_locally(set_.study, set_.options, starts_[k].rho, set_.ensemble,
+                                set_.observer.of(static_cast<int>(k) + 1), set_.cancel);
+      set_.meter.end_search(found[k].cost.evaluations);
     });
     for (const OptimizationResult& one : found)
       if (one.status.code == StatusCode::kWorkerLost) lost_ = one.status;
@@ -173,20 +166,21 @@ class Multistart {
     std::vector<Optimum> optima = cluster_optima(scaled, asked_.cluster, &starts);
     OptimizationResult best = choose(found);
     add_sums(*found, &best);
-    Ensemble ensemble = ensemble_;
+    Ensemble ensemble = set_.ensemble;
     go_on(static_cast<int>(found->size()), &ensemble, &best);
     best.multistart.starts = std::move(starts);
     best.multistart.optima = std::move(optima);
-    confirm_stop(study_, options_, ensemble, cancel_, &best);
+    confirm_stop(set_.study, set_.options, ensemble, set_.cancel, &best);
     take_study_start(ensemble, &best);
-    describe_scenarios(problem_, ensemble, cancel_, &meter_, &best);
+    describe_scenarios(set_.problem, ensemble, set_.cancel, &set_.meter, &best);
     return best;
   }
 
   /// The rounds of a worst case have the evaluations of a search.
   void go_on(int start, Ensemble* ensemble, OptimizationResult* best) {
     const SearchCost sums = std::exchange(best->cost, SearchCost());
-    add_worst_points(problem_, study_, options_, observer_.of(start), cancel_, ensemble, best);
+    add_worst_points(set_.problem, set_.study, set_.options, set_.observer.of(start), set_.cancel,
+                     ensemble, best);
     best->cost.iterations += sums.iterations;
     best->cost.evaluations += sums.evaluations;
     best->cost.failed_evaluations += sums.failed_evaluations;
@@ -219,8 +213,8 @@ class Multistart {
     const OptimizationResult* best = nullptr;
     for (const OptimizationResult& result : *found) {
       if (result.best.gradient.size() == 0) continue;
-      const bool met = meets_constraints(study_, result),
-                 best_met = best && meets_constraints(study_, *best);
+      const bool met = meets_constraints(set_.study, result),
+                 best_met = best && meets_constraints(set_.study, *best);
       if (!best || (met && !best_met) ||
           (met == best_met && result.best.objective < best->best.objective))
         best = &result;
@@ -232,13 +226,13 @@ class Multistart {
                                "no point that meets the constraints could be evaluated"}
                       : first_failure_;
     none.termination = "start_failed";
-    none.initial.rho = none.best.rho = problem_.start();
+    none.initial.rho = none.best.rho = set_.problem.start();
     if (!starts_.empty()) {
       none.best.rho = starts_.front().rho;
       none.best.objective = starts_.front().objective;
     }
     none.constraints.margins = parameter_rows_.margins(none.best.rho);
-    none.optimality.influences.assign(study_.tuned.size(), false);
+    none.optimality.influences.assign(set_.study.tuned.size(), false);
     return none;
   }
 
@@ -256,29 +250,22 @@ class Multistart {
   /// The initial values in the result are the values at the study's start, if that can be
   /// evaluated.
   void take_study_start(const Ensemble& ensemble, OptimizationResult* best) const {
-    if (best->best.gradient.size() == 0 || is_set(cancel_)) return;
-    const EnsembleEvaluation start = ensemble.evaluate(problem_.start(), true, cancel_);
+    if (best->best.gradient.size() == 0 || is_set(set_.cancel)) return;
+    const EnsembleEvaluation start = ensemble.evaluate(set_.problem.start(), true, set_.cancel);
     if (!start.total.status.ok()) return;
-    best->initial.rho = problem_.start();
+    best->initial.rho = set_.problem.start();
     best->initial.objective = start.total.objective;
     best->initial.gradient = start.total.gradient;
     SmoothProgram program(ensemble);
     best->initial.slope =
-        optimality(start, problem_.start(), scaling_, parameter_rows_, &program, cancel_).slope;
+        optimality(start, set_.problem.start(), scaling_, parameter_rows_, &program, set_.cancel)
+            .slope;
     best->initial.values = start.values;
     best->initial.failed = start.failed;
   }
 
-  const Problem& problem_;
-  const Study& study_;
+  SearchSet set_;
   const MultistartOptions& asked_;
-  const OptimizerOptions& options_;
-  const std::atomic<bool>* cancel_;
-  ProgressMeter own_meter_;
-  ProgressMeter& meter_;
-  const TrialObserver trial_;
-  SharedObserver observer_;
-  const Ensemble ensemble_;
   const ParameterRows parameter_rows_;
   const Scaling scaling_;
   std::vector<Candidate> starts_;  // the best usable points, best first

@@ -10,6 +10,7 @@
 #include "optimization/multistart.h"
 #include "optimization/search_hooks.h"
 #include "optimization/search_results.h"
+#include "optimization/search_set.h"
 #include "optimization/search_trials.h"
 #include "optimization/worst_rounds.h"
 #include "problem/load_problem.h"
@@ -42,16 +43,13 @@ namespace {
 
 OptimizationResult search_once(const Problem& problem, const OptimizerOptions& options,
                                const SearchHooks& hooks, const std::atomic<bool>* cancel) {
-  ProgressMeter own_meter(options.max_evaluations, hooks.progress);
-  ProgressMeter* const meter = hooks.meter ? hooks.meter : &own_meter;
-  Ensemble ensemble(problem, 1, records_of(hooks, meter));
-  meter->begin(SearchStage::kSearching, 0, ensemble.scenarios().size());
-  const TrialObserver observer = counted_trials(hooks, meter);
+  SearchSet set(problem, options, hooks, cancel);
+  set.meter.begin(SearchStage::kSearching, 0, set.ensemble.scenarios().size());
   OptimizationResult result =
-      search_locally(study_of(problem), options, problem.start(), ensemble, observer, cancel);
-  add_worst_points(problem, study_of(problem), options, observer, cancel, &ensemble, &result);
-  confirm_stop(study_of(problem), options, ensemble, cancel, &result);
-  describe_scenarios(problem, ensemble, cancel, meter, &result);
+      search_locally(set.study, options, problem.start(), set.ensemble, set.trial, cancel);
+  add_worst_points(problem, set.study, options, set.trial, cancel, &set.ensemble, &result);
+  confirm_stop(set.study, options, set.ensemble, cancel, &result);
+  describe_scenarios(problem, set.ensemble, cancel, &set.meter, &result);
   return result;
 }
 

@@ -94,11 +94,11 @@ class SearchTrials {
   /// What lies beside the best point along a direction.
   enum class Beside { kLower, kSame, kChanged };
   struct Side;
-  /// @param share the step in the unit of the parameter that moves most. @param flat if the result
-  /// is kSame and not null: the step that was taken to one side, and the design there.
   struct Flat {
     Eigen::VectorXd step, design;
   };
+  /// @param share the step in the unit of the parameter that moves most. @param flat if the result
+  /// is kSame and not null: the step that was taken to one side, and the design there.
   Beside look_beside(const Eigen::VectorXd& direction, const Side& side, double share, Flat* flat);
   Beside look_at(const Eigen::VectorXd& step, const Side& side, double share, Flat* flat);
   Beside look_along_valley(Eigen::VectorXd rho, const Side& side, double rise, double limit,

@@ -11,25 +11,18 @@
 #include <vector>
 
 #include "mechanism_codesign/gradient.h"
+#include "optimization/cart.h"
 #include "optimization/search_results.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
-const SourceText kCart{"cart.urdf", R"(<robot name="cart" xmlns:codesign="urn:mechanism_codesign">
-  <codesign:parameter name="mass" value="1" lower="0.1" upper="10"/>
-  <link name="ground"/>
-  <link name="cart"><inertial><mass value="1" codesign:value="${mass}"/>
-    <inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
-  <joint name="slide" type="prismatic"><parent link="ground"/><child link="cart"/><axis xyz="1 0 0"/>
-    <limit lower="-5" upper="5" effort="100" velocity="10"/></joint>
-</robot>)"};
-
 Problem cart(const std::string& study) {
-  return load_problem(kCart, {}, {"cart.yaml", study}, {}, {}, [](const FileAddress& address) {
-    return SourceText{address.file, "part,mass,damping\nsmall,0.5,0.9\nlarge,2.0,0.4\n"};
-  });
+  return load_problem(
+      cart_urdf(), {}, {"cart.yaml", study}, {}, {}, [](const FileAddress& address) {
+        return SourceText{address.file, "part,mass,damping\nsmall,0.5,0.9\nlarge,2.0,0.4\n"};
+      });
 }
 
 /// The cart rests, so that the objective is a sum of squares of what the references say.

@@ -5,6 +5,7 @@
 
 #include "ensemble/ensemble_fixture.h"
 #include "math/dense.h"
+#include "optimization/cart.h"
 
 namespace codesign {
 namespace {
@@ -144,11 +145,6 @@ TEST(SmoothProgram, OtherAlgorithmsAreRefused) {
                InputError);
 }
 
-const SourceText kCart{"cart.urdf", R"(<robot name="cart"><link name="world"/>
-  <link name="cart"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
-  <joint name="slide" type="prismatic"><parent link="world"/><child link="cart"/><axis xyz="1 0 0"/>
-    <limit lower="-5" upper="5" effort="100" velocity="10"/></joint></robot>)"};
-
 TEST(SmoothProgram, MovesTheCartByTheBangBangPeak) {
   // A cart of 1 kg, 1 m from rest to rest in 1 s. Piecewise linear forces with 40 coefficients
   // reverse within one span h = 1/39, so that the peak is 4 / (1 - h^2 / 3) m/s^2 for a symmetric
@@ -161,7 +157,7 @@ final: [{signal: slide/position, between: [1.0, 1.0]}, {signal: slide/velocity, 
 solver: {relative_tolerance: 1.0e-8, absolute_tolerance: 1.0e-9}
 optimizer: {algorithm: slsqp, relative_tolerance: 1.0e-10}
 )"};
-  const OptimizationResult result = optimize(load_problem(kCart, {}, study));
+  const OptimizationResult result = optimize(load_problem(cart_urdf(), {}, study));
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   EXPECT_LT(result.best.objective, 4.001);
   EXPECT_GT(result.best.objective, 4.0);
@@ -187,7 +183,7 @@ objective:
   terminal: [{signal: slide/position, reference: 0.5, weight: 1000}, {signal: slide/velocity, weight: 100}]
 optimizer: {max_evaluations: 400, algorithm: )" +
                                             std::string(algorithm) + "}\n"};
-    const OptimizationResult result = optimize(load_problem(kCart, {}, study));
+    const OptimizationResult result = optimize(load_problem(cart_urdf(), {}, study));
     ASSERT_TRUE(result.status.ok()) << algorithm << ": " << result.status.cause;
     EXPECT_NE(result.termination, "stopped_early") << algorithm;
     EXPECT_NEAR(result.best.objective, optimum, 1e-4 * optimum)

@@ -8,17 +8,11 @@
 #include <cmath>
 #include <string>
 
+#include "optimization/cart.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
-
-const SourceText kCart{"cart.urdf", R"(<robot name="cart">
-  <link name="ground"/>
-  <link name="cart"><inertial><mass value="1"/><inertia ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1"/></inertial></link>
-  <joint name="slide" type="prismatic"><parent link="ground"/><child link="cart"/><axis xyz="1 0 0"/>
-    <limit lower="-5" upper="5" effort="100" velocity="10"/></joint>
-</robot>)"};
 
 const std::string kHold = R"(
 initial_state: {slide: {position: 1.0, velocity: 0.0}}
@@ -37,7 +31,9 @@ solver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-11}
 optimizer: {relative_tolerance: 1.0e-13}
 )yaml" + kHold;
 
-Problem cart(const std::string& study) { return load_problem(kCart, {}, {"cart.yaml", study}); }
+Problem cart(const std::string& study) {
+  return load_problem(cart_urdf(), {}, {"cart.yaml", study});
+}
 
 bool is_inside(double value, double lower, double upper) {
   return value > lower + 1e-6 && value < upper - 1e-6;
