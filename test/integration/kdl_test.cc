@@ -17,11 +17,11 @@
 #include "assembly/make_system.h"
 #include "description/study.h"
 #include "equations/compiled_system.h"
+#include "found_robots.h"
 #include "integration/simulation_of.h"
 #include "math/dense.h"
 #include "mechanism/topology.h"
 #include "mechanism_codesign/simulation.h"
-#include "paths.h"
 #include "reading/urdf/urdf_reader.h"
 
 namespace codesign {
@@ -262,20 +262,17 @@ TEST(Kdl, AccelerationsWithIdealBodies) {
 }
 
 TEST(Kdl, AccelerationsOfRobotsAsTheyAreFound) {
-  const std::filesystem::path folder =
-      std::filesystem::path(source_dir()).parent_path() / "shared" / "corpus" / "urdf";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of files at " << folder;
+  if (found_robots().empty()) GTEST_SKIP() << kNoFoundRobots;
   int compared = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".urdf") continue;
-    const std::string text = read_source(entry.path().string()).text;
+  for (const std::filesystem::path& file : found_robots()) {
+    const std::string text = read_source(file.string()).text;
     if (!is_tree_of_simple_joints(read_urdf({"robot.urdf", text}))) continue;
     try {
-      EXPECT_LT(largest_difference(text, 2, 7), 1e-10) << entry.path();
+      EXPECT_LT(largest_difference(text, 2, 7), 1e-10) << file;
       ++compared;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find("not determined"), std::string::npos)
-          << entry.path() << ": " << error.what();
+          << file << ": " << error.what();
     }
   }
   EXPECT_GT(compared, 0);

@@ -7,6 +7,7 @@
 #include "cases/shipped.h"
 #include "description/study.h"
 #include "equations/iteration_matrix.h"
+#include "found_robots.h"
 #include "linear/linear_motion.h"
 #include "mechanism_codesign/source_text.h"
 #include "paths.h"
@@ -187,15 +188,12 @@ TEST(Linearize, EveryShippedCaseAgreesWithComplexSteps) {
 
 // Robots as vendors describe them, hanging from their bases.
 TEST(Linearize, RobotsAsTheyAreFoundAgreeWithComplexSteps) {
-  const std::filesystem::path folder =
-      std::filesystem::path(source_dir()).parent_path() / "shared" / "corpus" / "urdf";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of files at " << folder;
+  if (found_robots().empty()) GTEST_SKIP() << kNoFoundRobots;
   int compared = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.path().extension() != ".urdf") continue;
+  for (const std::filesystem::path& file : found_robots()) {
     try {
-      const Problem problem = loaded(read_source(entry.path().string()).text, "duration: 1\n");
-      expect_complex_steps(*system_of(problem), problem.parameters(), entry.path().filename());
+      const Problem problem = loaded(read_source(file.string()).text, "duration: 1\n");
+      expect_complex_steps(*system_of(problem), problem.parameters(), file.filename());
       ++compared;
     } catch (const InputError&) {
       continue;  // not a machine whose motion is determined: those of doc/corpus.md

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "found_robots.h"
 #include "mechanism/mass_properties.h"
 #include "paths.h"
 #include "reading/urdf/urdf_fixture.h"
@@ -170,10 +171,8 @@ TEST(StartingOverlay, OfShippedModelsIsRead) {
 }
 
 TEST(StartingOverlay, OfRobotsAsTheyAreFoundIsRead) {
-  const std::filesystem::path folder =
-      std::filesystem::path(source_dir()).parent_path() / "shared" / "corpus" / "urdf";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no collection of files at " << folder;
-  EXPECT_GT(expect_all_are_read(folder), 0);
+  if (found_robots().empty()) GTEST_SKIP() << kNoFoundRobots;
+  for (const std::filesystem::path& file : found_robots()) expect_it_is_read(file);
 }
 
 }  // namespace
