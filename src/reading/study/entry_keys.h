@@ -63,6 +63,17 @@ EntryKeys<Entry, Context> with(EntryKeys<Entry, Context> keys,
   return keys;
 }
 
+/// Rows of a member of an entry as rows of the entry.
+template <class Entry, class Part, class Context>
+EntryKeys<Entry, Context> of_member(const EntryKeys<Part, Context>& keys, Part Entry::*member) {
+  EntryKeys<Entry, Context> result;
+  for (const EntryKey<Part, Context>& key : keys)
+    result.push_back({key.name, key.is_required,
+                      [read = key.read, member](const YamlValue& value, const Context& in,
+                                                Entry* of) { read(value, in, &(of->*member)); }});
+  return result;
+}
+
 /// Checks that an entry has all required keys and no unknown ones. @throws InputError
 template <class Entry, class Context>
 void require_keys(const YamlValue& value, const EntryKeys<Entry, Context>& keys) {
@@ -144,5 +155,8 @@ std::vector<EntryForm> forms_of_runs();
 std::vector<EntryForm> forms_of_controllers();
 std::vector<EntryForm> forms_of_recordings();
 std::vector<EntryForm> forms_of_calibrations();
+std::vector<EntryForm> forms_of_excited_joints();
+std::vector<EntryForm> forms_of_hardware();
+std::vector<EntryForm> forms_of_uncertain();
 
 }  // namespace codesign

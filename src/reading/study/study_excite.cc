@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
 
@@ -13,40 +14,63 @@ namespace {
 
 constexpr double kMostPoints = 1e6;
 
-void read_magnitude(const YamlValue& parent, const std::string& key,
-                    std::optional<double>* magnitude) {
-  if (const auto value = parent.find(key)) *magnitude = read_above_zero(*value);
+using LimitKeys = EntryKeys<MotionLimitDescription, NoContext>;
+using JointKeys = EntryKeys<ExcitedJoint, NoContext>;
+
+void read_position_limits(const YamlValue& value, const NoContext&,
+                          MotionLimitDescription* limits) {
+  const std::vector<YamlValue> ends = value.items();
+  if (ends.size() != 2)
+    value.fail("a range of positions has two ends, found " + std::to_string(ends.size()),
+               "[lower, upper]");
+  limits->position = {ends[0].number(), ends[1].number()};
+  if (!((*limits->position)[0] < (*limits->position)[1]))
+    value.fail("the range is empty", "lower below upper");
 }
 
-MotionLimitDescription read_limits(const std::string& name, const YamlValue& value,
-                                   const RobotDescription& robot) {
+EntryKey<MotionLimitDescription, NoContext> magnitude_key(
+    const char* name, std::optional<double> MotionLimitDescription::*member) {
+  return {name, false,
+          [member](const YamlValue& value, const NoContext&, MotionLimitDescription* of) {
+            of->*member = read_above_zero(value);
+          }};
+}
+
+const LimitKeys& follower_keys() {
+  static const LimitKeys kKeys{{"position", false, read_position_limits},
+                               magnitude_key("velocity", &MotionLimitDescription::velocity)};
+  return kKeys;
+}
+
+const JointKeys& joint_keys() {
+  using Limits = MotionLimitDescription;
+  static const JointKeys kKeys = with(
+      of_member(
+          with(follower_keys(), LimitKeys{magnitude_key("acceleration", &Limits::acceleration),
+                                          magnitude_key("effort", &Limits::effort)}),
+          &ExcitedJoint::limits),
+      JointKeys{{"noise", false, [](const YamlValue& value, const NoContext&, ExcitedJoint* of) {
+                   of->noise = read_above_zero(value);
+                 }}});
+  return kKeys;
+}
+
+/// The limits of a joint, of which none is read yet.
+MotionLimitDescription limits_of(const std::string& name, const YamlValue& value,
+                                 const RobotDescription& robot) {
   MotionLimitDescription limits;
   limits.joint = scalar_joint(name, robot, value).name;
   limits.element = value.path();
   limits.where = value.where();
-  if (const auto position = value.find("position")) {
-    const std::vector<YamlValue> ends = position->items();
-    if (ends.size() != 2)
-      position->fail("a range of positions has two ends, found " + std::to_string(ends.size()),
-                     "[lower, upper]");
-    limits.position = {ends[0].number(), ends[1].number()};
-    if (!((*limits.position)[0] < (*limits.position)[1]))
-      position->fail("the range is empty", "lower below upper");
-  }
-  read_magnitude(value, "velocity", &limits.velocity);
-  read_magnitude(value, "acceleration", &limits.acceleration);
-  read_magnitude(value, "effort", &limits.effort);
   return limits;
 }
 
 /// @param noise of all joints; 0: each joint has its own.
 ExcitedJoint read_joint(const std::string& name, const YamlValue& value,
                         const RobotDescription& robot, double noise) {
-  value.require_keys({}, {"position", "velocity", "acceleration", "effort", "noise"});
-  ExcitedJoint joint;
-  joint.limits = read_limits(name, value, robot);
-  joint.noise = noise;
-  if (const auto own = value.find("noise")) joint.noise = read_above_zero(*own);
+  require_keys(value, joint_keys());
+  ExcitedJoint joint{limits_of(name, value, robot), noise};
+  read_entry(value, joint_keys(), {}, &joint);
   if (joint.noise == 0.0)
     value.fail("how noisy the efforts are is not known",
                "noise: standard deviation of one sample [N m or N], here or as excite.noise");
@@ -67,13 +91,14 @@ void read_joints(const YamlValue& excite, const RobotDescription& robot,
 void read_followers(const YamlValue& limits, const RobotDescription& robot,
                     ExcitationDescription* description) {
   for (const auto& [name, value] : limits.entries()) {
-    value.require_keys({}, {"position", "velocity"});
+    require_keys(value, follower_keys());
     const std::string joint = name;
     if (std::any_of(description->joints.begin(), description->joints.end(),
                     [&](const ExcitedJoint& excited) { return excited.limits.joint == joint; }))
       value.fail("the joint is one of excite.joints",
                  "its limits there, and here those of joints that follow");
-    description->followers.push_back(read_limits(name, value, robot));
+    description->followers.push_back(limits_of(name, value, robot));
+    read_entry(value, follower_keys(), {}, &description->followers.back());
   }
 }
 
@@ -98,6 +123,10 @@ void check_recording_plan(const YamlValue& excite, const ExcitationDescription& 
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_excited_joints() {
+  return {{"excite.joints.JOINT", joint_keys()}, {"excite.limits.JOINT", follower_keys()}};
+}
 
 ExcitationDescription read_excitation(const YamlValue& excite, const RobotDescription& robot) {
   ExcitationDescription description;

@@ -240,45 +240,66 @@ void require_clamp(const ControllerDescription& controller, const HardwareGains&
         "i_clamp: the largest effort of the integral term [N m or N]");
 }
 
-/// If the controller has a clamp of its own, the robot gets this clamp, since it was simulated.
-void read_clamp(const ControllerDescription& controller, const YamlValue& value,
-                const ParameterTable& table, HardwareGains* gains) {
-  if (controller.realization.i_clamp) {
-    for (const char* key : {"i_clamp", "antiwindup"})
-      if (const auto given = value.find(key))
-        given->fail("the controller of the study has i_clamp already, which the robot gets",
-                    "no such key here");
-    gains->i_clamp = controller.realization.i_clamp;
-    gains->antiwindup = controller.realization.antiwindup == AntiWindup::kClamping;
+/// A controller with a clamp of its own takes no further one: the robot gets this clamp, since it
+/// was simulated.
+void require_no_clamp(const ControllerDescription& controller, const YamlValue& value) {
+  if (controller.realization.i_clamp)
+    value.fail("the controller of the study has i_clamp already, which the robot gets",
+               "no such key here");
+}
+
+/// What the gains of a controller are read with.
+struct GainsContext {
+  const ControllerDescription& controller;
+  const ParameterTable& table;
+};
+using GainsKeys = EntryKeys<HardwareGains, GainsContext>;
+
+void read_gains_clamp(const YamlValue& value, const GainsContext& in, HardwareGains* gains) {
+  require_no_clamp(in.controller, value);
+  if (value.is_list()) {
+    gains->i_clamp = read_control_bounds(value, in.table, true);
     return;
   }
-  if (const auto clamp = value.find("i_clamp")) {
-    if (clamp->is_list()) {
-      gains->i_clamp = read_control_bounds(*clamp, table, true);
-    } else {
-      const Quantity bound = read_quantity(*clamp, table);
-      if (bound.nominal() < 0.0) clamp->fail("the clamp must not be negative", "0 or more");
-      gains->i_clamp = ControlBounds{bound, std::nullopt};
-    }
-  }
-  if (const auto antiwindup = value.find("antiwindup")) gains->antiwindup = antiwindup->boolean();
+  const Quantity bound = read_quantity(value, in.table);
+  if (bound.nominal() < 0.0) value.fail("the clamp must not be negative", "0 or more");
+  gains->i_clamp = ControlBounds{bound, std::nullopt};
+}
+
+const GainsKeys& gains_keys() {
+  static const GainsKeys kKeys{
+      {"namespace", true,
+       [](const YamlValue& value, const GainsContext&, HardwareGains* of) {
+         of->name_space = read_namespace(value);
+       }},
+      {"i_clamp", false, read_gains_clamp},
+      {"antiwindup", false, [](const YamlValue& value, const GainsContext& in, HardwareGains* of) {
+         require_no_clamp(in.controller, value);
+         of->antiwindup = value.boolean();
+       }}};
+  return kKeys;
 }
 
 HardwareGains read_gains_of(const std::string& name, const YamlValue& value,
                             const ParameterTable& table, const Study& study) {
-  value.require_keys({"namespace"}, {"i_clamp", "antiwindup"});
+  require_keys(value, gains_keys());
   const ControllerDescription& controller = find_controller(name, value, study);
   require_pid_gains(controller, value);
   HardwareGains gains;
   gains.controller = name;
   gains.where = value.where();
-  gains.name_space = read_namespace(value.at("namespace"));
-  read_clamp(controller, value, table, &gains);
+  if (controller.realization.i_clamp) {
+    gains.i_clamp = controller.realization.i_clamp;
+    gains.antiwindup = controller.realization.antiwindup == AntiWindup::kClamping;
+  }
+  read_entry(value, gains_keys(), GainsContext{controller, table}, &gains);
   require_clamp(controller, gains, value);
   return gains;
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_hardware() { return {{"hardware.CONTROLLER", gains_keys()}}; }
 
 void read_hardware(const YamlValue& root, const ParameterTable& table, Study* study) {
   const auto hardware = root.find("hardware");

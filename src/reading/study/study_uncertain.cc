@@ -8,6 +8,7 @@
 
 #include "description/robot.h"
 #include "math/arrays.h"
+#include "reading/study/entry_keys.h"
 #include "reading/study/study_values.h"
 #include "text/number_text.h"
 
@@ -26,7 +27,7 @@ std::array<YamlValue, 2> pair_at(const YamlValue& value, const std::string& name
   return {items[0], items[1]};
 }
 
-void read_range(const YamlValue& value, const Parameter& parameter, Distribution* distribution) {
+void read_interval(const YamlValue& value, const Parameter& parameter, Distribution* distribution) {
   const std::array<YamlValue, 2> range = pair_at(value, "lower, upper");
   distribution->lower = read_within_bounds(range[0], parameter);
   distribution->upper = read_within_bounds(range[1], parameter);
@@ -34,10 +35,9 @@ void read_range(const YamlValue& value, const Parameter& parameter, Distribution
     range[0].fail("the lower end must lie below the upper one", "lower < upper");
 }
 
-/// A normal distribution, truncated to `between`, or else to the bounds of the parameter.
+/// Truncated to the bounds of the parameter, unless `between` says more.
 void read_normal(const YamlValue& value, const Parameter& parameter, Distribution* distribution) {
-  const YamlValue normal = value.at("normal");
-  const std::array<YamlValue, 2> numbers = pair_at(normal, "mean, deviation");
+  const std::array<YamlValue, 2> numbers = pair_at(value, "mean, deviation");
   distribution->kind = DistributionKind::kNormal;
   distribution->mean = read_within_bounds(numbers[0], parameter);
   distribution->deviation = numbers[1].number();
@@ -45,11 +45,13 @@ void read_normal(const YamlValue& value, const Parameter& parameter, Distributio
     numbers[1].fail("the standard deviation must be positive", "more than 0");
   distribution->lower = parameter.lower;
   distribution->upper = parameter.upper;
-  if (const auto between = value.find("between")) read_range(*between, parameter, distribution);
-  if (distribution->mean < distribution->lower || distribution->mean > distribution->upper)
-    numbers[0].fail(
+}
+
+void require_mean_inside(const YamlValue& normal, const Distribution& distribution) {
+  if (distribution.mean < distribution.lower || distribution.mean > distribution.upper)
+    pair_at(normal, "mean, deviation")[0].fail(
         "the mean lies outside the range to which the distribution is truncated",
-        "[" + to_decimal(distribution->lower) + ", " + to_decimal(distribution->upper) + "]");
+        "[" + to_decimal(distribution.lower) + ", " + to_decimal(distribution.upper) + "]");
 }
 
 std::vector<YamlValue> choices_at(const YamlValue& choice) {
@@ -59,7 +61,9 @@ std::vector<YamlValue> choices_at(const YamlValue& choice) {
   return items;
 }
 
-void read_values(const YamlValue& choice, const Parameter& parameter, Distribution* distribution) {
+void read_choice_values(const YamlValue& choice, const Parameter& parameter,
+                        Distribution* distribution) {
+  distribution->kind = DistributionKind::kChoice;
   std::set<double> seen;
   for (const YamlValue& item : choices_at(choice)) {
     distribution->choices.push_back(read_within_bounds(item, parameter));
@@ -76,13 +80,22 @@ void require_usable(FrictionModel law, const RobotDescription& robot, const Yaml
               "laws without states, or mu_dynamic > 0");
 }
 
-void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQuantity* quantity) {
-  value.require_keys({"choice"}, {});
-  if (std::none_of(robot.joints.begin(), robot.joints.end(),
-                   [](const JointDescription& joint) { return joint.friction.has_value(); }))
-    value.fail("no joint of the model has friction", "a model with <codesign:friction>");
+using DistributionKeys = EntryKeys<Distribution, Parameter>;
+using FrictionLawKeys = EntryKeys<UncertainQuantity, RobotDescription>;
+
+/// `between` narrows what `normal` has read.
+const DistributionKeys& distribution_keys() {
+  static const DistributionKeys kKeys{{"uniform", false, read_interval},
+                                      {"normal", false, read_normal},
+                                      {"between", false, read_interval},
+                                      {"choice", false, read_choice_values}};
+  return kKeys;
+}
+
+void read_law_choice(const YamlValue& choice, const RobotDescription& robot,
+                     UncertainQuantity* quantity) {
   quantity->distribution.kind = DistributionKind::kChoice;
-  for (const YamlValue& item : choices_at(value.at("choice"))) {
+  for (const YamlValue& item : choices_at(choice)) {
     const std::string law = item.choice("friction law", names_of(robot.laws.friction));
     if (std::find(quantity->laws.begin(), quantity->laws.end(), law) != quantity->laws.end())
       item.fail("repeated choice", "laws that differ; each is equally likely");
@@ -92,18 +105,29 @@ void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQ
   }
 }
 
+const FrictionLawKeys& friction_law_keys() {
+  static const FrictionLawKeys kKeys{{"choice", true, read_law_choice}};
+  return kKeys;
+}
+
+void read_laws(const YamlValue& value, const RobotDescription& robot, UncertainQuantity* quantity) {
+  require_keys(value, friction_law_keys());
+  if (std::none_of(robot.joints.begin(), robot.joints.end(),
+                   [](const JointDescription& joint) { return joint.friction.has_value(); }))
+    value.fail("no joint of the model has friction", "a model with <codesign:friction>");
+  read_entry(value, friction_law_keys(), robot, quantity);
+}
+
 void read_distribution(const YamlValue& value, const Parameter& parameter,
                        Distribution* distribution) {
-  value.require_keys({}, {"uniform", "normal", "between", "choice"});
-  const auto uniform = value.find("uniform"), normal = value.find("normal"),
-             choice = value.find("choice"), between = value.find("between");
-  if (uniform.has_value() + normal.has_value() + choice.has_value() != 1)
+  require_keys(value, distribution_keys());
+  const auto normal = value.find("normal"), between = value.find("between");
+  if (value.find("uniform").has_value() + normal.has_value() + value.find("choice").has_value() !=
+      1)
     value.fail("a parameter has one distribution", kForms);
   if (between && !normal) between->fail("between belongs to normal", kForms);
-  distribution->kind = choice ? DistributionKind::kChoice : DistributionKind::kUniform;
-  if (uniform) read_range(*uniform, parameter, distribution);
-  if (normal) read_normal(value, parameter, distribution);
-  if (choice) read_values(*choice, parameter, distribution);
+  read_entry(value, distribution_keys(), parameter, distribution);
+  if (normal) require_mean_inside(*normal, *distribution);
 }
 
 void refuse_set_by_run(const std::string& name, const YamlValue& value,
@@ -143,6 +167,10 @@ bool is_file(const std::string& name, const YamlValue& value, const Study& study
 }
 
 }  // namespace
+
+std::vector<EntryForm> forms_of_uncertain() {
+  return {{"uncertain.NAME", distribution_keys()}, {"uncertain.friction_law", friction_law_keys()}};
+}
 
 std::vector<UncertainQuantity> read_uncertain(const YamlValue& uncertain,
                                               const RobotDescription& robot, const Study& study,

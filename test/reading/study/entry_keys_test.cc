@@ -18,7 +18,8 @@ std::vector<EntryForm> all_forms() {
        {forms_of_starts(), forms_of_parameters(), forms_of_runs(), forms_of_loads(),
         forms_of_terms(), forms_of_watched_signals(), forms_of_linear_numbers(),
         forms_of_constraints(), forms_of_controllers(), forms_of_recordings(),
-        forms_of_calibrations()})
+        forms_of_calibrations(), forms_of_excited_joints(), forms_of_hardware(),
+        forms_of_uncertain()})
     all.insert(all.end(), forms.begin(), forms.end());
   return all;
 }
@@ -95,6 +96,20 @@ TEST(EntryKeys, AreReadInTheOrderOfTheRows) {
   EXPECT_EQ(numbers.two, 7.0);
   EXPECT_THROW(read_entry(yaml("{one: 5}"), keys, 3, &numbers), InputError);
   EXPECT_THROW(read_entry(yaml("{two: 5, twoo: 1}"), keys, 3, &numbers), InputError);
+}
+
+TEST(EntryKeys, OfAMemberAreReadIntoIt) {
+  struct Named {
+    Numbers numbers;
+  };
+  const EntryKeys<Numbers, int> keys{
+      {"two", true, [](const YamlValue& value, const int& factor, Numbers* of) {
+         of->two = factor * value.number();
+       }}};
+  Named named;
+  read_entry(yaml("{two: 4}"), of_member(keys, &Named::numbers), 3, &named);
+  EXPECT_EQ(named.numbers.two, 12.0);
+  EXPECT_THROW(read_entry(yaml("{}"), of_member(keys, &Named::numbers), 3, &named), InputError);
 }
 
 struct Bounds {
