@@ -204,18 +204,10 @@ RosenbrockTableau::Row rate_weights(const RosenbrockTableau& tableau, double the
 }
 
 const RosenbrockTableau& rosenbrock_tableau(RosenbrockMethod method) {
-  switch (method) {
-    case RosenbrockMethod::kRodas4P2:
-      return rodas4p2();
-    case RosenbrockMethod::kRodas5P:
-      return rodas5p();
-    case RosenbrockMethod::kDopri5:
-    case RosenbrockMethod::kAuto:
-      return dopri5();
-    case RosenbrockMethod::kRodas4:
-      break;
-  }
-  return rodas4();
+  // In the order of RosenbrockMethod.
+  constexpr std::array kTableaus{rodas4, rodas4p2, rodas5p, dopri5, dopri5};
+  static_assert(kTableaus.size() == kRosenbrockMethodNames.size());
+  return kTableaus[to_index(static_cast<int>(method))]();
 }
 
 int most_stages(RosenbrockMethod method) {

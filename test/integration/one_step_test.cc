@@ -6,14 +6,15 @@
 #include "description/solver_names.h"
 #include "integration/equal_steps.h"
 #include "integration/servo.h"
+#include "integration/tableaus.h"
 
 namespace codesign {
 namespace {
 
-class OneStepTest : public ::testing::TestWithParam<const char*> {
+class OneStepTest : public ::testing::TestWithParam<const RosenbrockTableau*> {
  protected:
   const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
-  OneStep<double> step{*system, rosenbrock_tableau(method_named(GetParam()))};
+  OneStep<double> step{*system, *GetParam()};
 
   /// The state after a span in `count` equal steps.
   State<double> run(double span, int count) {
@@ -60,8 +61,7 @@ TEST_P(OneStepTest, ErrorIsThatOfTheEmbeddedSolution) {
   EXPECT_LT(step.error(1e-6, 1e-6), 0.2 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, OneStepTest,
-                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
+INSTANTIATE_TEST_SUITE_P(Methods, OneStepTest, ::testing::ValuesIn(all_tableaus()), tableau_name);
 
 }  // namespace
 }  // namespace codesign

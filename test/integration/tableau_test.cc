@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "description/solver_names.h"
+#include "integration/tableaus.h"
 
 namespace codesign {
 namespace {
@@ -44,10 +45,10 @@ double integrate(const RosenbrockTableau& tableau, int steps, double* dense_midd
   return y;
 }
 
-class Tableau : public ::testing::TestWithParam<const char*> {};
+class Tableau : public ::testing::TestWithParam<const RosenbrockTableau*> {};
 
 TEST_P(Tableau, ConvergesAtItsOrder) {
-  const RosenbrockTableau& tableau = rosenbrock_tableau(method_named(GetParam()));
+  const RosenbrockTableau& tableau = *GetParam();
   double unused = 0.0;
   const double exact = integrate(rodas5p(), 4096, &unused);
   const double coarse = std::abs(integrate(tableau, 8, &unused) - exact),
@@ -56,7 +57,7 @@ TEST_P(Tableau, ConvergesAtItsOrder) {
 }
 
 TEST_P(Tableau, DenseOutputIsOneOrderLess) {
-  const RosenbrockTableau& tableau = rosenbrock_tableau(method_named(GetParam()));
+  const RosenbrockTableau& tableau = *GetParam();
   double middle[2], exact[2];
   const int steps[2] = {8, 16};
   for (int k = 0; k < 2; ++k) {
@@ -78,7 +79,7 @@ TEST_P(Tableau, DenseOutputIsOneOrderLess) {
 }
 
 TEST_P(Tableau, HasItsLastStageAtTheEnd) {
-  const RosenbrockTableau& t = rosenbrock_tableau(method_named(GetParam()));
+  const RosenbrockTableau& t = *GetParam();
   const auto last = static_cast<std::size_t>(t.stages) - 1;
   for (std::size_t j = 0; j < last; ++j) EXPECT_EQ(t.weights[j], t.a[last][j]);
   EXPECT_EQ(t.weights[last], t.is_explicit() ? 0.0 : 1.0);
@@ -86,7 +87,7 @@ TEST_P(Tableau, HasItsLastStageAtTheEnd) {
 }
 
 TEST_P(Tableau, SlopesAndCurvaturesOfTheDenseOutputAreItsDerivatives) {
-  const RosenbrockTableau& t = rosenbrock_tableau(method_named(GetParam()));
+  const RosenbrockTableau& t = *GetParam();
   const double theta = 0.3, step = 1e-5;
   const auto before = dense_weights(t, theta - step), behind = dense_weights(t, theta + step),
              at = dense_weights(t, theta);
@@ -106,8 +107,7 @@ TEST(Dopri5, RatesOfTheDenseOutputAreThoseOfItsEnds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Tableau,
-                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"));
+INSTANTIATE_TEST_SUITE_P(All, Tableau, ::testing::ValuesIn(all_tableaus()), tableau_name);
 
 TEST(TableauNames, AreThoseOfStudies) {
   for (const char* name : kRosenbrockMethodNames) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "integration/servo.h"
+#include "integration/tableaus.h"
 #include "sensitivity/adjoint_step.h"
 #include "sensitivity/servo_steps.h"
 
@@ -44,11 +45,11 @@ TEST(MatrixWeights, AreTheSumOfTheOuterProducts) {
 
 constexpr int kStart = 3;  // the parameter that moves the initial state alone
 
-class AdjointStepTest : public ::testing::TestWithParam<const char*> {};
+class AdjointStepTest : public ::testing::TestWithParam<const RosenbrockTableau*> {};
 
 // psi_y y_rho is the same at either end of the steps.
 TEST_P(AdjointStepTest, IsTheTransposedTangent) {
-  ServoSteps run(GetParam());
+  ServoSteps run(*GetParam());
   const VectorX<double> begin = run.begin.row(kStart).transpose(),
                         end = run.end.row(kStart).transpose();
   EXPECT_GT(end.norm(), 0.1);
@@ -63,7 +64,7 @@ TEST_P(AdjointStepTest, IsTheTransposedTangent) {
 // psi_rho = psi_y y_rho at the start + the products by parameters of all evaluations, for the gains
 // and the weight.
 TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
-  ServoSteps run(GetParam());
+  ServoSteps run(*GetParam());
   const Eigen::Index size = run.end.cols(), psi = size - 1;
   const VectorX<double>& start = run.back(VectorX<double>::Unit(size, psi), [](std::size_t) {});
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(5);
@@ -78,9 +79,8 @@ TEST_P(AdjointStepTest, TheParametersExplainWhatTheStartDoesNot) {
   EXPECT_EQ(gradient[3], 0.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest,
-                         ::testing::Values("rodas4", "rodas4p2", "rodas5p", "dopri5"),
-                         [](const auto& instance) { return std::string(instance.param); });
+INSTANTIATE_TEST_SUITE_P(Methods, AdjointStepTest, ::testing::ValuesIn(all_tableaus()),
+                         tableau_name);
 
 }  // namespace
 

@@ -3,8 +3,8 @@
 
 namespace codesign {
 
-ServoSteps::ServoSteps(const std::string& method)
-    : tableau(rosenbrock_tableau(method_named(method))),
+ServoSteps::ServoSteps(const RosenbrockTableau& of_method)
+    : tableau(of_method),
       step(*system, tableau),
       tangent(*system, tableau),
       adjoint(*system, tableau),

@@ -3,11 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
 #include <vector>
 
 #include "assembly/assembly.h"
-#include "description/solver_names.h"
 #include "integration/servo.h"
 #include "sensitivity/adjoint_step.h"
 #include "sensitivity/lane_directions.h"
@@ -20,7 +18,7 @@ namespace codesign {
 struct ServoSteps {
   static constexpr double kSize = 2e-3;
 
-  explicit ServoSteps(const std::string& method);
+  explicit ServoSteps(const RosenbrockTableau& of_method);
   ~ServoSteps();
 
   /// The adjoint at the start for a given adjoint at the end. @param visit called with each point's

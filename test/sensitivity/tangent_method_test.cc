@@ -1,5 +1,4 @@
-// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier:
-// BSD-3-Clause
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensitivity/tangent_method.h"
 
 #include <gtest/gtest.h>
@@ -8,6 +7,7 @@
 
 #include "assembly/assembly.h"
 #include "integration/servo.h"
+#include "integration/tableaus.h"
 
 namespace codesign {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kStepSize = 2e-3, kImaginary = 1e-30;
 /// the same step with one parameter moved along the imaginary axis, which knows
 /// nothing of them.
 template <class Method>
-void expect_derivatives_of_the_stages(const RosenbrockTableau &tableau) {
+void expect_derivatives_of_the_stages(const RosenbrockTableau& tableau) {
   const std::shared_ptr<const CompiledSystem> system = servo("{integrator: rosenbrock}");
   const std::vector<double> parameters = system->parameters();
   OneStep<double> step(*system, tableau);
@@ -36,7 +36,7 @@ void expect_derivatives_of_the_stages(const RosenbrockTableau &tableau) {
   State<Lanes<kTangents>> start;
   memory.equations.equations().set_design(lanes);
   assembly.extend(lanes, initial, &memory.equations.equations(), &start);
-  const auto take = [&memory](const VectorX<Lanes<kTangents>> &of, int first) {
+  const auto take = [&memory](const VectorX<Lanes<kTangents>>& of, int first) {
     for (Eigen::Index k = 0; k < of.size(); ++k) memory.y.col(first + k) = of[k].directions();
   };
   take(start.q, memory.at.x());
@@ -69,6 +69,7 @@ void expect_derivatives_of_the_stages(const RosenbrockTableau &tableau) {
 TEST(TangentMethod, DifferentiatesRosenbrockStages) {
   expect_derivatives_of_the_stages<RosenbrockTangent<kTangents>>(rodas4());
   expect_derivatives_of_the_stages<RosenbrockTangent<kTangents>>(rodas5p());
+  expect_derivatives_of_the_stages<RosenbrockTangent<kTangents>>(rodas3());
 }
 
 TEST(TangentMethod, DifferentiatesExplicitStages) {
