@@ -10,6 +10,8 @@
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/run_fields.h"
 #include "jobs/run_recorder.h"
 #include "problem/load_problem.h"
 #include "text/number_text.h"
@@ -72,10 +74,7 @@ void add_run(const Problem& problem, const RunSummary& run, const Json& counts, 
   if (study_of(problem).postures == 0) (*object)["end_time"] = run.end;
   add_statistics(run.statistics, object);
   (*object)["sample_seconds"] = run.sample_seconds;
-  Json methods = Json::array();
-  for (const MethodChange& change : run.methods)
-    methods.push_back({{"from", change.time}, {"method", change.method}});
-  (*object)["methods"] = std::move(methods);
+  (*object)["methods"] = records_json(run.methods);
   add_events(run.events, object);
   object->update(counts);
   (*object)["limits_exceeded"] = to_json(run.crossings);

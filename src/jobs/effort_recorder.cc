@@ -6,6 +6,9 @@
 
 #include "description/study.h"
 #include "identification/effort/motion_projection.h"
+#include "jobs/json.h"
+#include "jobs/record_json.h"
+#include "jobs/run_fields.h"
 #include "math/arrays.h"
 #include "problem/load_problem.h"
 #include "statics/posture_efforts.h"
@@ -251,8 +254,7 @@ Json to_json(const std::vector<DriveNeeds>& drives) {
   Json object = Json::object();
   for (const DriveNeeds& drive : drives) {
     Json& joint = object[drive.joint] = Json::object();
-    for (const auto& [name, extreme] : drive.extremes)
-      joint[name] = {{"value", extreme.value}, {"at", extreme.at}};
+    for (const auto& [name, extreme] : drive.extremes) joint[name] = record_json(extreme);
     for (const auto& [name, total] : drive.totals) joint[name] = total;
   }
   return object;

@@ -135,6 +135,14 @@ constexpr auto fields_of(const KeptLimit*) {
                              "largest value along the trajectory"));
 }
 
+constexpr auto fields_of(const ExcitationResult*) {
+  using R = ExcitationResult;
+  return std::make_tuple(
+      field("termination", &R::termination, "why the best search ended"),
+      field("evaluations", &R::evaluations, "trajectories that were tried, over all searches"),
+      field("cpu_seconds", &R::cpu_seconds, "processor time [s]").finite());
+}
+
 constexpr auto fields_of(const ExcitationStart*) {
   using S = ExcitationStart;
   return std::make_tuple(field("initial_criterion", &S::initial_criterion,

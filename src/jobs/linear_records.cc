@@ -32,15 +32,7 @@ void add_stability(const LinearModel& model, Json* object) {
   (*object)["modes"] = std::move(modes);
 }
 
-void add_matrices(const StateSpace& system, Json* object) {
-  (*object)["states"] = system.states;
-  (*object)["inputs"] = system.inputs;
-  (*object)["outputs"] = system.outputs;
-  (*object)["A"] = rows_json(system.A);
-  (*object)["B"] = rows_json(system.B);
-  (*object)["C"] = rows_json(system.C);
-  (*object)["D"] = rows_json(system.D);
-}
+void add_matrices(const StateSpace& system, Json* object) { add_fields(system, object); }
 
 Json measured_json(const std::vector<ControllerDescription>& controllers) {
   Json measured = Json::object();

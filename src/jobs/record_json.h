@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -52,6 +53,14 @@ Json value_json(const OrNull& number) {
 template <NonFinite non_finite>
 Json value_json(const std::vector<std::string>& texts) {
   return texts;
+}
+template <NonFinite non_finite>
+Json value_json(const std::vector<double>& numbers) {
+  return numbers;
+}
+template <NonFinite non_finite>
+Json value_json(const Eigen::MatrixXd& matrix) {
+  return rows_json(matrix);
 }
 template <NonFinite non_finite, class Record>
 Json value_json(const std::vector<Record>& records) {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <optional>
 #include <string>
@@ -51,6 +52,8 @@ template <class T>
 struct ValueSchema<std::vector<T>> : ListSchema<T> {};
 template <class T, std::size_t n>
 struct ValueSchema<std::array<T, n>> : ListSchema<T> {};
+template <>
+struct ValueSchema<Eigen::MatrixXd> : ListSchema<std::vector<double>> {};
 
 template <class T>
 struct MayBeAbsent : std::false_type {};

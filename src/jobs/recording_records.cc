@@ -66,10 +66,7 @@ RecordingSummary summary_of(const JointRecording& recording, const MeasuredMotio
 Json to_json(const std::vector<RecordingSummary>& recordings) { return records_json(recordings); }
 
 Json excitation_json(const Problem& problem, const ExcitationResult& result) {
-  Json object;
-  object["termination"] = result.termination;
-  object["evaluations"] = result.evaluations;
-  object["cpu_seconds"] = result.cpu_seconds;
+  Json object = record_json(result);
   if (result.numbers.empty()) return object;
   object["parameters"] = parameters_json(problem, problem.parameters());
   for (const PredictedNumber& number : result.numbers)

@@ -3,13 +3,16 @@
 
 #include <tuple>
 
+#include "jobs/effort_recorder.h"
 #include "jobs/fields.h"
 #include "jobs/run_recorder.h"
 #include "linear/linear_model.h"
 #include "linear/loop_margins.h"
+#include "linear/state_space.h"
 #include "mechanism/machine_numbers.h"
 #include "mechanism_codesign/counts.h"
 #include "mechanism_codesign/event.h"
+#include "mechanism_codesign/simulation.h"
 #include "mechanism_codesign/statistics.h"
 #include "mechanism_codesign/warning.h"
 
@@ -121,6 +124,34 @@ constexpr auto fields_of(const LinearMode*) {
       field(
           "damping_ratio", [](const LinearMode& mode) { return mode.pole.damping_ratio(); },
           "negative: it grows"));
+}
+
+/// From when on which method took the steps.
+constexpr auto fields_of(const MethodChange*) {
+  return std::make_tuple(
+      field("from", &MethodChange::time, "[s]").finite(),
+      field("method", &MethodChange::method, "of integration, from that time on"));
+}
+
+/// Of the efforts of a drive.
+constexpr auto fields_of(const Extreme*) {
+  return std::make_tuple(
+      field("value", &Extreme::value,
+            "of largest magnitude; null if infinite: the mechanism locks"),
+      field("at", &Extreme::at, "the instant [s], or the posture in the order of the grid"));
+}
+
+/// Without the period.
+constexpr auto fields_of(const StateSpace*) {
+  return std::make_tuple(
+      field("states", &StateSpace::states,
+            "coordinates and their rates, then states of controllers and friction"),
+      field("inputs", &StateSpace::inputs, "set-points, references, disturbances, loads"),
+      field("outputs", &StateSpace::outputs, "the signals of --signals"),
+      field("A", &StateSpace::A, "x' = A x + B u; with a period from one to the next"),
+      field("B", &StateSpace::B, "one row per state, one column per input"),
+      field("C", &StateSpace::C, "one row per output, one column per state"),
+      field("D", &StateSpace::D, "one row per output, one column per input"));
 }
 
 constexpr auto fields_of(const AtFrequency*) {
