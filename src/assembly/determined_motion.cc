@@ -19,8 +19,8 @@ namespace {
 constexpr double kRankOfMotions = 1e-9;
 // Smaller eigenvalues of M, relative to the largest, count as zero.
 constexpr double kSingular = 1e-12;
-constexpr double kSmallestGyration = 1e-14;  // square of a radius of gyration [m^2]; smaller ones
-                                             // are rounding of the tool that wrote the file
+// Square of a radius of gyration [m^2]; smaller ones are rounding of the tool that wrote the file.
+constexpr double kSmallestGyration = 1e-14;
 
 bool lacks_inertia(const BodyConstants<double>& body) {
   if (!(body.mass > 0.0)) return true;

@@ -15,11 +15,11 @@ constexpr int kMostIterations = 40;
 constexpr double kRounding = 4e-15;  // a relative step below this is rounding
 // A relative step below this that no longer shrinks is rounding, too.
 constexpr double kConverged = 1e-11;
-constexpr double kSharedRounding = 1e-7;  // the same for reactions of redundant rows, whose
-                                          // rounding is divided by a compliance of 1e-9
-constexpr double kSlow = 0.05;  // if a step is larger than this fraction of the previous one, the
-                                // matrix is factorized again
-constexpr double kFar = 0.5;    // [rad] a larger turn of a body or joint might leave the branch
+// The same for reactions of redundant rows, whose rounding is divided by a compliance of 1e-9.
+constexpr double kSharedRounding = 1e-7;
+// If a step is larger than this fraction of the previous one, the matrix is factorized again.
+constexpr double kSlow = 0.05;
+constexpr double kFar = 0.5;  // [rad] a larger turn of a body or joint might leave the branch
 constexpr int kMostDivisions = 12;
 
 /// Convergence of a Newton iteration by the sizes of its steps, relative to the unknowns.

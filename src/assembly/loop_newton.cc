@@ -17,10 +17,12 @@ constexpr double kClosed = 1e-12;
 // A Newton step [rad or m] below this times the mechanism's size counts as zero.
 constexpr double kAtRest = 1e-13;
 constexpr int kNewtonIterations = 200;
-constexpr double kLargestTurn = 0.5;  // [rad or m] limit of one Newton step per coordinate, so that
-                                      // the solution stays on the start's branch
-constexpr double kContraction = 0.25;  // of Newton steps; with less, the solution nearest to the
-                                       // start of the iteration is found
+// [rad or m] limit of one Newton step per coordinate, so that the solution stays on the start's
+// branch.
+constexpr double kLargestTurn = 0.5;
+// Of Newton steps; with less contraction the solution nearest to the start of the iteration is
+// found.
+constexpr double kContraction = 0.25;
 // [rad or m] limit of the first step per coordinate of steps that contract.
 constexpr double kFirstTurn = 0.5;
 constexpr int kMostCorrections = 12;

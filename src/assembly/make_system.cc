@@ -105,8 +105,8 @@ double compliance_of(const Equations<double>& equations) {
 /// would change the motion. Otherwise all rows stay enforced, which remains right at positions far
 /// from the start.
 bool must_drop(const LoopMiss& miss, const Redundancy& redundancy) {
-  constexpr double kExact = 1e-12;  // [m and rad] a smaller miss, divided by a compliance of 1e-9,
-                                    // gives a negligible load
+  // [m and rad] a smaller miss, divided by a compliance of 1e-9, gives a negligible load.
+  constexpr double kExact = 1e-12;
   return std::max(miss.length, miss.angle) > kExact || !redundancy.friction_chosen.empty();
 }
 

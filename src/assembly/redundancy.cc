@@ -16,10 +16,11 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankOfRows = 1e-3;  // rank tolerance of the loops' scaled Jacobian: rounded
-                                      // angles and lengths leave less of a redundant row
-constexpr double kLoaded = 1e-7;  // smaller components of a self-stress, relative to the largest,
-                                  // count as zero; far above rounding
+// Rank tolerance of the loops' scaled Jacobian: rounded angles and lengths leave less of a
+// redundant row.
+constexpr double kRankOfRows = 1e-3;
+// Smaller components of a self-stress, relative to the largest, count as zero; far above rounding.
+constexpr double kLoaded = 1e-7;
 constexpr double kTestMotion = 0.2;  // [rad], or this fraction of a loop's longest lever
 // Allowed error of a redundant row after the test motion; a row that is redundant at a singular
 // start only misses ten times as much.

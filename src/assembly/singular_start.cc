@@ -13,8 +13,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kRankAtStart = 1e-4;  // a position that is solved for can be off the singular one
-                                       // by the square root of its tolerance
+// A position that is solved for can be off the singular one by the square root of its tolerance.
+constexpr double kRankAtStart = 1e-4;
 constexpr double kIsMotion = 1e-3;  // allowed norm of L^T (J x)_theta x, relative to (J x)_theta x
 // Step [rad or m] of the fourth-order differences, whose error is about 1e-12.
 constexpr double kDifference = 1e-3;

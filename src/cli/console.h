@@ -20,8 +20,8 @@ struct Console {
   std::ostream& err;  ///< progress and messages
   /// once set, the command ends soon and keeps its results so far
   const std::atomic<bool>& cancel;
-  void (*loaded)() =
-      nullptr;  ///< called after the input is loaded, before the computation; may be null
+  /// called after the input is loaded, before the computation; may be null
+  void (*loaded)() = nullptr;
   Dispatcher* ranks = nullptr;  ///< the processes of the job, as in require_engine()
   BagReader bags = {};          ///< reads the bags that a study names; empty: they are refused
   /// writes the bag of an identification; empty: none is written

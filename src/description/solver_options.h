@@ -29,8 +29,7 @@ enum class CoordinatesKind {
 
 /// The spelling of each enumerator in study files, in the order of the enumerators.
 constexpr std::array<const char*, 2> kIntegratorNames{"rosenbrock", "idas"};
-constexpr std::array<const char*, 5> kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p",
-                                                            "dopri5", "auto"};
+constexpr std::array kRosenbrockMethodNames{"rodas4", "rodas4p2", "rodas5p", "dopri5", "auto"};
 constexpr std::array<const char*, 3> kGradientMethodNames{"auto", "direct", "adjoint"};
 constexpr std::array<const char*, 3> kCoordinatesNames{"auto", "joint", "absolute"};
 

@@ -40,8 +40,8 @@ struct RankTimes {
   /// ends a job within a second after one of its ranks was killed; run_on_ranks() extends it where
   /// mpirun is told to wait longer.
   Duration answer = std::chrono::milliseconds(300);
-  std::function<PollPause::Clock::time_point()> now =
-      PollPause::Clock::now;  ///< the clock of all of them
+  /// the clock of all of them
+  std::function<PollPause::Clock::time_point()> now = PollPause::Clock::now;
 };
 
 /// A message with the rank it comes from.

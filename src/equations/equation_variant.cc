@@ -157,8 +157,8 @@ void EquationVariant::record_switches(const Traced& g) {
 void EquationVariant::record_accelerations(const std::vector<Traced>& G_z,
                                            EquationRecorder* equations) {
   const Sparsity& pattern = system_.patterns().rate;
-  constexpr int kMostUnknowns = 200;  // a long chain's matrix is dense, and its program would take
-                                      // longer to make than most runs
+  // A long chain's matrix is dense, and its program would take longer to make than most runs.
+  constexpr int kMostUnknowns = 200;
   if (pattern.columns > kMostUnknowns || !is_mass_matrix(system_, *recording_, pattern, G_z))
     return;
   VectorX<Traced>& z = equations->state.z;

@@ -11,9 +11,9 @@ namespace codesign {
 namespace {
 
 using Kind = LimitedSignal::Kind;
-constexpr double kPerWave = 16.0;       // number of effort samples in the shortest wave
-constexpr Eigen::Index kDenseness = 4;  // factor for the number of samples of positions, velocities
-                                        // and accelerations, which are cheap
+constexpr double kPerWave = 16.0;  // number of effort samples in the shortest wave
+// Factor for the number of samples of positions, velocities and accelerations, which are cheap.
+constexpr Eigen::Index kDenseness = 4;
 
 Eigen::Index samples_of(const TrajectoryBasis& basis) {
   return static_cast<Eigen::Index>(std::ceil(kPerWave * basis.period() / basis.shortest_wave()));

@@ -12,8 +12,8 @@ namespace {
 
 using Kind = LimitedSignal::Kind;
 constexpr Eigen::Index kScanPerWave = 64;
-constexpr int kRounds = 14;  // each round halves the intervals beside a peak, and reduces the error
-                             // of the peak to a quarter
+// Each round halves the intervals beside a peak, and reduces the error of the peak to a quarter.
+constexpr int kRounds = 14;
 constexpr double kMissed = 1e-11;  // peaks between the times that rise less do not count
 // Beyond it a peak's exact height does not matter, and differences of heights may be no numbers.
 constexpr double kFarOutside = 1e6;

@@ -21,8 +21,9 @@ constexpr double kTolerance = 1e-5;
 constexpr double kRowTolerance = 1e-7;
 constexpr double kInside = 0.999, kFarBeyond = 3.0;  // of the limits
 constexpr int kMostShrinks = 3;
-constexpr int kMostCalls = 3;  // calls by NLopt per point: SLSQP asks for the value, then for the
-                               // gradient, and counts differently
+// Calls by NLopt per point: SLSQP asks for the value, then for the gradient, and counts
+// differently.
+constexpr int kMostCalls = 3;
 
 nlopt::algorithm method_of(TrajectorySearchMethod method) {
   switch (method) {

@@ -80,9 +80,8 @@ SaturatedEffort<T> cut(const T& u, const Bounds<T>& bounds) {
 template <class T>
 struct ControlValues {
   Pid<T> gains;
-  T error{0.0}, integral{0.0},
-      error_rate{
-          0.0};    ///< e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
+  /// e = setpoint - input, its integral and its rate, [unit of the input], s, 1/s
+  T error{0.0}, integral{0.0}, error_rate{0.0};
   T clamped{0.0};  ///< k_i times the integral within i_clamp; the integral is then zero
   T load{0.0};     ///< inverse dynamics, see ControlLoad [N m or N]
   /// u_0(t) - sum of K_i (x_i - r_i(t)) of (C7), the shape u(t) of (C8), or e of (49a)

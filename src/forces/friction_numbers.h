@@ -15,8 +15,8 @@ struct FrictionNumbers {
   Value stribeck_velocity{1.0};    ///< v_s [m/s]
   Value joint_length{1.0};         ///< a [m]
   Value joint_width{1.0};          ///< b [m]
-  Value pin_radius{
-      0.0};  ///< r_e [m], arm of the friction of forces across the axis; radius of a ball
+  /// r_e [m], arm of the friction of forces across the axis; radius of a ball
+  Value pin_radius{0.0};
   Value friction_arm{0.0};       ///< r_z [m], arm of the friction of the axial force
   Value preload{0.0};            ///< N_0 [N], constant part of the normal force
   Value smoothing{1.0};          ///< epsilon of the smooth absolute value [N]

@@ -149,8 +149,8 @@ IdentificationResult identify(const Problem& problem, const StudyRecordings& giv
       make_sources(problem, variables, recordings, cancel, &result.warnings);
   if (is_set(cancel)) return cancelled();
   RecordingResiduals& residuals = *data;
-  residuals.obey(cancel);  // The holdout does not: it is judged after a cancel, too, which takes
-                           // two evaluations.
+  // The holdout does not: it is judged after a cancel, too, which takes two evaluations.
+  residuals.obey(cancel);
 
   const FitProblem limits = fit_problem(problem, variables);
   result.status = residuals.begin(limits.start);

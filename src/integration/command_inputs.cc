@@ -11,8 +11,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kAnySpeed = 1e9;  // [m/s or rad/s] without controllers no speed is known beyond
-                                   // which a commanded motion runs away
+// [m/s or rad/s] without controllers no speed is known beyond which a commanded motion runs away.
+constexpr double kAnySpeed = 1e9;
 
 constexpr double kMostSteps = 2e9;
 

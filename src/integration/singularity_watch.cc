@@ -18,8 +18,8 @@ constexpr double kPeak = 8.0;  // a peak must exceed this multiple of the mean d
 constexpr double kSingular = 2e-3;
 // The same for a run that restarts often, whose steps do not reach over the position.
 constexpr double kBeside = 0.05;
-constexpr double kLarge = 4.0;  // upper limit of the mean drift in the test for a peak, since idas
-                                // restarts before larger drifts
+// Upper limit of the mean drift in the test for a peak, since idas restarts before larger drifts.
+constexpr double kLarge = 4.0;
 constexpr double kRank = 3e-4;  // smaller singular values, relative to the largest, count as zero
 constexpr double kLeastDrift = 1e-12;  // smaller drifts count as this in the geometric mean
 constexpr int kIterations = 40;        // of the golden-section search, a factor 0.618 each

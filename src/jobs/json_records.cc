@@ -135,8 +135,8 @@ Json exact_check_json(const Problem& problem, const OptimizationResult& result,
   try {
     check = check_along(Ensemble(problem), result.best.rho, method, cancel);
   } catch (const InputError& error) {
-    return skipped(error.what());  // the gradient cannot be checked, for example because the
-                                   // processes of the engine are missing
+    // The gradient cannot be checked, for example because the processes of the engine are missing.
+    return skipped(error.what());
   }
   if (!check.status.ok()) return skipped(describe(check.status));
   const std::vector<std::string> names = problem.tuned_names();

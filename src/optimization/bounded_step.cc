@@ -14,8 +14,8 @@ namespace {
 using Eigen::Index;
 constexpr double kLeastDamping = 1e-16;  // for columns of norm 1
 constexpr double kNull = 1e-9;  // relative to the largest singular value: smaller ones are rounding
-constexpr double kRounding = 1e-12;  // relative to the gradient: a component on a bound stays there
-                                     // if leaving it would gain less
+// Relative to the gradient: a component on a bound stays there if leaving it would gain less.
+constexpr double kRounding = 1e-12;
 constexpr int kMostBisections = 60;
 
 }  // namespace

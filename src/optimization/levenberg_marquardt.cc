@@ -16,8 +16,8 @@ namespace {
 
 using Outcome = LeastSquaresModel::Outcome;
 
-constexpr double kLeastGain =
-    1e-4;  // of the predicted decrease: a step that gains less is rejected
+// Of the predicted decrease: a step that gains less is rejected.
+constexpr double kLeastGain = 1e-4;
 constexpr double kPoorGain = 0.25,
                  kGoodGain = 0.75;  // the radius shrinks below the first and grows above the second
 constexpr double kUnusable = 0.25;  // factor of the radius after a point without a value

@@ -57,8 +57,8 @@ std::vector<Index> worst_first(const VectorXd& values) {
 // of the worst values with a total weight of 1 - level; the last of these may count with a part of
 // its weight.
 Measured conditional_value_at_risk(double level, const VectorXd& values, const VectorXd& weights) {
-  constexpr double kRounding = 1e-12;  // relative to 1 - level; a rest below it is rounding, not a
-                                       // part of the next value's weight
+  // Relative to 1 - level; a rest below it is rounding, not a part of the next value's weight.
+  constexpr double kRounding = 1e-12;
   const double slack = kRounding * (1.0 - level);
   double rest = 1.0 - level, counted = 0.0;
   Measured result{0.0, VectorXd::Zero(values.size())};

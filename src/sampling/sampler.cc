@@ -116,8 +116,8 @@ Eigen::MatrixXd unit_points(SamplerKind kind, int count, int dimension, std::uin
 PointSequence sobol_sequence(int dimension, std::uint32_t seed) {
   if (dimension == 0) return [](Eigen::MatrixXd*) {};
   const auto size = to_index(dimension);
-  std::mt19937 generator(seed);  // the standard defines its raw numbers, but not the algorithms of
-                                 // <random>'s distributions
+  // The standard defines its raw numbers, but not the algorithms of <random>'s distributions.
+  std::mt19937 generator(seed);
   std::vector<std::uint32_t> keys(size);
   for (std::uint32_t& key : keys) key = static_cast<std::uint32_t>(generator());
   return [engine = Engine(size), keys, bits = std::vector<std::uint32_t>(size, 0u),

@@ -16,16 +16,17 @@
 namespace codesign {
 namespace {
 
-constexpr double kInside = 1e-10;    // fraction of a step: at its ends a reference may have a kink,
-                                     // so that slopes are taken just inside
-constexpr double kRounding = 1e-14;  // fraction of the duration: where a step ends at a break time,
-                                     // the two may differ by rounding
-constexpr int kBits = 50;            // accuracy of the instant of an extremum
+// Fraction of a step: at its ends a reference may have a kink, so that slopes are taken just
+// inside.
+constexpr double kInside = 1e-10;
+// Fraction of the duration: where a step ends at a break time, the two may differ by rounding.
+constexpr double kRounding = 1e-14;
+constexpr int kBits = 50;  // accuracy of the instant of an extremum
 constexpr std::uintmax_t kMostIterations = 60;
 constexpr double kShort = 4.0;   // in units of what slopes are taken inside of a step
 constexpr double kAtEnd = 1e-7;  // fraction of the duration: nearer to an end that moves is at it
-constexpr double kNear = 1e-9;   // fraction of the duration: a number just inside a step beside one
-                                 // at its end
+// Fraction of the duration: a number just inside a step beside one at its end.
+constexpr double kNear = 1e-9;
 
 bool jumps(double before, double after) {
   return std::abs(after - before) > 1e-8 * (std::abs(before) + std::abs(after));

@@ -261,8 +261,8 @@ DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJ
   } catch (const InputError&) {
     StartWorkspace usual(of, of.parameters());
     if (!of.whole_study().motion.empty() || !usual.solve_positions().ok()) throw;
-    std::vector<int> held;  // joints that are probably driven: they keep the linkage from returning
-                            // to its former position
+    // Joints that are probably driven: they keep the linkage from returning to its former position.
+    std::vector<int> held;
     for (std::size_t k = 0; k < measured.size(); ++k)
       if (measured[k].with_effort) held.push_back(static_cast<int>(k));
     for (Eigen::Index sample = 0; sample < positions.cols(); ++sample) {

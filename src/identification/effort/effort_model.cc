@@ -14,8 +14,9 @@
 namespace codesign {
 namespace {
 
-constexpr int kBlock = 64;  // samples evaluated in a row by one thread; fixed, so that results do
-                            // not depend on the number of threads
+// Samples evaluated in a row by one thread; fixed, so that results do not depend on the number of
+// threads.
+constexpr int kBlock = 64;
 
 Status at_sample(int sample, Status status) {
   status.cause = "sample " + std::to_string(sample) + ": " + status.cause;

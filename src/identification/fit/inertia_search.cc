@@ -17,8 +17,8 @@ using End = LevenbergMarquardtEnd;
 using Outcome = LeastSquaresModel::Outcome;
 
 constexpr double kOptimal = 1e-9;  // of psi: a smaller predicted decrease is rounding
-constexpr double kLeastGain =
-    1e-4;  // of the predicted decrease: a step that gains less is rejected
+// Of the predicted decrease: a step that gains less is rejected.
+constexpr double kLeastGain = 1e-4;
 constexpr double kPoorGain = 0.25, kGoodGain = 0.75;  // the damping grows below, falls above
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-7, kMostDamping = 1e12;
 

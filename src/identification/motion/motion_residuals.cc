@@ -15,8 +15,9 @@
 namespace codesign {
 namespace {
 
-constexpr double kSlowStart = 0.1;  // of the segment's previous predicted decrease, and of the sum
-                                    // of all: a start with a larger predicted decrease is slow
+// Of the segment's previous predicted decrease, and of the sum of all: a start with a larger
+// predicted decrease is slow.
+constexpr double kSlowStart = 0.1;
 constexpr std::size_t kFew = 4;  // slow starts are helped if at most one segment in so many has one
 // Of the value: a smaller sum of predicted decreases does not hinder a fit.
 constexpr double kWorthHelp = 1e-6;

@@ -13,8 +13,8 @@
 namespace codesign {
 namespace {
 
-constexpr double kNoLimit = 1e9;  // [m/s or rad/s] a segment may begin in any motion, so that no
-                                  // speed indicates an unstable motion
+// [m/s or rad/s] a segment may begin in any motion, so that no speed indicates an unstable motion.
+constexpr double kNoLimit = 1e9;
 
 /// Builds the study of a segment.
 class SegmentStudy {

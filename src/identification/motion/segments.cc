@@ -20,8 +20,8 @@ namespace codesign {
 namespace {
 
 constexpr int kMostRuns = 8, kFewRuns = 3;
-constexpr double kEnough =
-    1e-8;  // of the value: a start with a smaller predicted decrease is the best one
+// Of the value: a start with a smaller predicted decrease is the best one.
+constexpr double kEnough = 1e-8;
 // Factor of kEnough with each run, since predictions of less are noise of step sizes.
 constexpr double kPatience = 10.0;
 // Share of the sum of squares of the recorded values that a simulation does not resolve.

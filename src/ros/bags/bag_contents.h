@@ -143,8 +143,8 @@ class BagContents {
              const std::function<void(const BagMessage&)>& visit);
 
  private:
-  using Counts =
-      std::map<std::uint32_t, std::uint64_t>;  // messages by the number of their connection
+  /// messages by the number of their connection
+  using Counts = std::map<std::uint32_t, std::uint64_t>;
   struct Chunk {
     std::uint64_t at;  ///< place of its data
     std::uint32_t packed, size;

@@ -33,8 +33,8 @@ struct SimulationOptions {
   bool start_paused = false;     ///< pause after the first frame
   double step_frames = 1.0;      ///< frames of a ~step, a whole number
   bool float_topics = false;     ///< publish each number on a topic of its own, too
-  MarkerStyle style{0.0, 0.0,
-                    0.0};  ///< scales that the user has set; 0: the scale follows from the run
+  /// scales that the user has set; 0: the scale follows from the run
+  MarkerStyle style{0.0, 0.0, 0.0};
 };
 
 /// The names of the parameters that read_simulation_options() knows.
