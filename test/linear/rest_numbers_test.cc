@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "description/linear_measure.h"
 #include "description/tuned_parameters.h"
@@ -45,16 +47,21 @@ void expect_derivatives(const std::string& urdf, const std::string& study, doubl
   const std::vector<RestNumbers::Entry> exact = numbers.entries();
   ASSERT_FALSE(exact.empty());
   const std::vector<int>& tuned = system.study().tuned;
+  // All numbers at the same moved parameters belong to one evaluation.
+  std::map<std::pair<int, double>, std::vector<RestNumbers::Entry>> moved_entries;
+  const auto moved_by = [&](int parameter, double step) -> const std::vector<RestNumbers::Entry>& {
+    std::vector<RestNumbers::Entry>& entries = moved_entries[{parameter, step}];
+    if (!entries.empty()) return entries;
+    std::vector<double> moved = parameters;
+    moved[static_cast<std::size_t>(parameter)] += step;
+    const Status at = numbers.evaluate(moved, false, nullptr);
+    EXPECT_TRUE(at.ok()) << at.cause;
+    return entries = numbers.entries();
+  };
   for (std::size_t entry = 0; entry < exact.size(); ++entry)
     for (std::size_t p = 0; p < tuned.size(); ++p)
       for (Eigen::Index k = 0; k < std::min(places, exact[entry].values.size()); ++k) {
-        const auto value = [&](double step) {
-          std::vector<double> moved = parameters;
-          moved[static_cast<std::size_t>(tuned[p])] += step;
-          const Status at = numbers.evaluate(moved, false, nullptr);
-          EXPECT_TRUE(at.ok()) << at.cause;
-          return numbers.entries()[entry].values[k];
-        };
+        const auto value = [&](double step) { return moved_by(tuned[p], step)[entry].values[k]; };
         // A crossing far from deciding is small beside what rounding leaves of it.
         if (std::abs(exact[entry].values[k]) > 100.0 * std::abs(exact[entry].values[0]) + 1.0)
           continue;
