@@ -59,6 +59,7 @@ Json loops_json(const LinearModel& model) {
                       if (margin)
                         entry[name] = {{"value", margin->value}, {"frequency", margin->frequency}};
                     });
+      if (loop.samples > 1) entry["samples"] = loop.samples;
       entry["response"] = response_of(loop);
     } else {
       entry["why_not"] = loop.why_not;

@@ -186,7 +186,7 @@ ComplexSpace LinearDerivatives::loop(std::size_t controller, std::size_t directi
   step(direction);
   if (pattern_.period > 0.0) {
     const PeriodMap<Complex> map = period_map(static_cast<int>(controller));
-    return {map.by_states(), map.by_opened(), map.output(), Eigen::MatrixXcd::Zero(1, 1)};
+    return {map.by_states(), map.by_opened(), map.output(), map.direct()};
   }
   const auto c = to_signed(controller);
   ComplexSpace loop{space_->flow.A, space_->flow.B.col(c), space_->flow.C.row(c),

@@ -188,6 +188,19 @@ TEST(RestNumbers, OfSampledCascadesAndOtherLaws) {
         1e-7, 2);
 }
 
+// The inner loop samples three times in the common period, in which the outer one reads it once.
+TEST(RestNumbers, OfLoopsOfSeveralSampleTimes) {
+  expect_derivatives(
+      carts(1, {damped(1.0)}),
+      tuned({{"Kv", 3.0}, {"Kp", 8.0}, {"Ki", 2.0}, {"tau", 0.03}}) +
+          controlled("outer: {type: pid, input: x0/position, setpoint: 0.2, gains: {p: \"${Kv}\"}, "
+                     "sample_time: 0.15}, inner: {type: pid, input: x0/velocity - outer/output, "
+                     "setpoint: 0, output: x0, gains: {p: \"${Kp}\", i: \"${Ki}\"}, sample_time: "
+                     "0.05, time_constant: \"${tau}\"}") +
+          bounds("inner", kSampledMeasures, kSampledPoles),
+      1e-7, 1);
+}
+
 // Chains of filters before a PID with all of its memory, and before each signal of a feedback.
 TEST(RestNumbers, OfSampledFilters) {
   expect_derivatives(
