@@ -10,8 +10,6 @@
 namespace codesign {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-
 // A cart whose loop knows nothing of another one, which is sampled half as often: margins are those
 // of the transfer function that it has alone.
 TEST(PeriodicLoop, OfALoopThatDoesNotChangeIsItsTransferFunction) {
@@ -48,12 +46,12 @@ TEST(PeriodicLoop, OfSpeedsByClosedForms) {
     EXPECT_EQ(model.loops[k].samples, k == 0 ? 3 : 2);
     const double T = times[k], loop = gains[k] * T;
     EXPECT_NEAR(margins.gain_margin->value, 2.0 / loop, 1e-9);
-    EXPECT_NEAR(margins.gain_margin->frequency, 0.5 * kTurn / T, 1e-6);
+    EXPECT_NEAR(margins.gain_margin->frequency, kPi / T, 1e-6);
     // |loop/(z - 1)| = 1: 2 sin(w T/2) = loop, the phase -90 deg - w T/2.
     const double w = 2.0 * std::asin(0.5 * loop) / T;
     EXPECT_NEAR(margins.phase_margin->frequency, w, 1e-8);
-    EXPECT_NEAR(margins.phase_margin->value, 0.25 * kTurn - 0.5 * w * T, 1e-9);
-    EXPECT_NEAR(margins.delay_margin->value, (0.25 * kTurn - 0.5 * w * T) / w, 1e-9);
+    EXPECT_NEAR(margins.phase_margin->value, 0.5 * kPi - 0.5 * w * T, 1e-9);
+    EXPECT_NEAR(margins.delay_margin->value, (0.5 * kPi - 0.5 * w * T) / w, 1e-9);
   }
 }
 
@@ -80,8 +78,9 @@ TEST(PeriodicLoop, AtItsGainMarginAPoleIsOnTheCircle) {
 TEST(PeriodicLoop, TheMainFrequencyOfSamples) {
   const double period = 0.5;
   for (const double w : {1.0, 30.0, -45.0, 61.0})
-    EXPECT_NEAR(main_frequency(sinusoid(w, 10, period), std::remainder(w * period, kTurn), period),
-                w, 1e-9);
+    EXPECT_NEAR(
+        main_frequency(sinusoid(w, 10, period), std::remainder(w * period, 2.0 * kPi), period), w,
+        1e-9);
 }
 
 }  // namespace

@@ -201,6 +201,31 @@ TEST(RestNumbers, OfLoopsOfSeveralSampleTimes) {
       1e-7, 1);
 }
 
+// The current is a state behind those of controllers, and an inner loop may read it.
+TEST(RestNumbers, OfMotorsAndTheirCurrents) {
+  const std::string motor = carts(
+      1,
+      {sprung(4.0, 0.1) +
+       R"(<codesign:actuator rotor_inertia="0" resistance="0.5" torque_constant="0.2" inductance="0.01"/>)"});
+  expect_derivatives(motor,
+                     tuned({{"p", 20.0}, {"d", 2.0}}) +
+                         controlled(cart_servo("gains: {p: \"${p}\", d: \"${d}\"}")) +
+                         bounds("servo0", {"phase_margin", "delay_margin", "sensitivity"}),
+                     1e-7, 2);
+  for (const std::string sampled : {"", ", sample_time: 0.002"})
+    expect_derivatives(
+        motor,
+        tuned({{"p", 3.0}, {"i", 200.0}, {"k", 60.0}}) +
+            controlled("outer: {type: state_feedback, feedback: [{signal: x0/position, gain: "
+                       "\"${k}\", reference: 0.1}, {signal: x0/velocity, gain: 8}]" +
+                       (sampled.empty() ? "" : std::string(", sample_time: 0.006")) +
+                       "}, inner: {type: pid, input: x0/current - outer/output, setpoint: 0, "
+                       "output: x0, gains: {p: \"${p}\", i: \"${i}\"}" +
+                       sampled + "}") +
+            bounds("inner", {"phase_margin", "delay_margin", "bandwidth"}),
+        1e-7, 1);
+}
+
 // Chains of filters before a PID with all of its memory, and before each signal of a feedback.
 TEST(RestNumbers, OfSampledFilters) {
   expect_derivatives(
