@@ -47,7 +47,8 @@ class Resolver {
         throw InputError({study_.controllers[k].where, element(k) + key,
                           "a controller cannot read an effort, a reaction of a joint that it "
                           "drives, itself or a later controller",
-                          description.text, "controllers defined before it"});
+                          description.text,
+                          "controllers defined before it, currents of motors with an inductance"});
     return signal;
   }
 
