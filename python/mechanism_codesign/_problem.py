@@ -172,7 +172,7 @@ class Problem:
         """Small motions at one design: poles, margins of the controllers, matrices; `codesign linearize`.
 
         at: time of the run [s]; without it about the equilibrium near the start of the study.
-        signals: the outputs. friction: whether it counts about rest, "off" or "regularised".
+        signals: the outputs. friction: whether it counts about rest, "off", "regularised" or "given_speed".
 
         Raises ComputationError if there is no equilibrium, or the run fails before.
         """

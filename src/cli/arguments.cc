@@ -103,7 +103,7 @@ void set_friction(const std::string& text, Arguments* arguments) {
       arguments->friction = static_cast<LinearFriction>(k);
       return;
     }
-  throw UsageError("--friction must be off or regularised, not \"" + text + "\"");
+  throw UsageError("--friction must be off, regularised or given_speed, not \"" + text + "\"");
 }
 
 void set_time(const std::string& text, Arguments* arguments) {

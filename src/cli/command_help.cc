@@ -45,8 +45,9 @@ const CommandHelp kCommands[] = {
     {"equilibrium",
      R"(  equilibrium MODEL STUDY  a posture near the start in which everything rests, and its stability
     --signals A,B          further signals there, such as reactions
-    --friction HOW         whether friction counts for its stability: off (default) or regularised,
-                           with the slope of its law at rest
+    --friction HOW         whether friction counts for its stability: off (default), regularised,
+                           with the slope of its law at rest, or given_speed, with that at the
+                           speeds with which the study starts
     --run NAME             one of the study's runs, in place of the study itself
 )"},
     {"linearize",
@@ -54,7 +55,9 @@ const CommandHelp kCommands[] = {
     --at TIME              about the state of the run at this time [s], in place of the equilibrium
     --signals A,B          the outputs of C and D
     --csv FILE             the frequency response of each controller's open loop
-    --friction HOW         whether friction counts about rest: off (default) or regularised
+    --friction HOW         whether friction counts about rest: off (default), regularised, with the
+                           slope of its law at rest, or given_speed, with that at the speeds with
+                           which the study starts
     --run NAME             one of the study's runs, in place of the study itself
 )"},
     {"gradient",

@@ -63,6 +63,9 @@ void print_margins(const LinearModel& model, std::ostream& out) {
       continue;
     }
     is_empty = false;
+    if (loop.samples > 1)
+      out << loop.controller << ": margins by the poles over " << loop.samples
+          << " samples, the common period of all controllers\n";
     visit_margins(loop.margins, [&](const std::string& name,
                                     const std::optional<AtFrequency>& margin, const char* unit) {
       std::string title = name;

@@ -47,14 +47,15 @@ class Resolver {
         throw InputError({study_.controllers[k].where, element(k) + key,
                           "a controller cannot read an effort, a reaction of a joint that it "
                           "drives, itself or a later controller",
-                          description.text, "controllers defined before it"});
+                          description.text,
+                          "controllers defined before it, currents of motors with an inductance"});
     return signal;
   }
 
   /// Whether a term contains the output of the k-th controller or of a later one. A reaction does
   /// if one of them drives its joint.
   bool reads_effort(const SignalReference& term, std::size_t k) const {
-    if (facts_of(term.kind).needs == SignalNeeds::kEfforts) return true;
+    if (facts_of(term.kind).needs == SignalNeeds::kEfforts) return !is_state(term);
     if (term.kind != SignalKind::kReactionForce && term.kind != SignalKind::kReactionTorque)
       return false;
     const auto drives = [&](const ControllerDescription& controller) {
@@ -64,6 +65,19 @@ class Resolver {
       return false;
     };
     return std::any_of(study_.controllers.begin() + to_signed(k), study_.controllers.end(), drives);
+  }
+
+  /// Whether a term is the current of a winding with an inductance, which follows the voltage.
+  bool is_state(const SignalReference& term) const {
+    if (term.kind != SignalKind::kCurrent || study_.rigid_gears || study_.postures > 0)
+      return false;
+    const int joint = topology_.pairs[to_index(term.pair)].chain[to_index(term.element)].joint;
+    const JointDescription& of = robot_.joints[to_index(joint)];
+    const int motor = of.motor >= 0 ? of.motor : joint;
+    const JointDescription& moved = robot_.joints[to_index(motor)];
+    return moved.has_winding() && moved.actuator->winding->has_state() &&
+           std::none_of(study_.motion.begin(), study_.motion.end(),
+                        [&of](const GivenMotion& motion) { return motion.joint == of.name; });
   }
 
   void resolve_signals(std::size_t k) {
@@ -189,9 +203,9 @@ class Resolver {
   /// A sampled controller must not read accelerations and forces: its output determines them at the
   /// instant of the sample. The same holds for a filter, whose state begins at its input.
   void refuse_rates(std::size_t k) const {
-    const auto is_rate = [](const SignalReference& term) {
+    const auto is_rate = [this](const SignalReference& term) {
       const SignalNeeds needs = facts_of(term.kind).needs;
-      return needs != SignalNeeds::kMotion && needs != SignalNeeds::kControl;
+      return needs != SignalNeeds::kMotion && needs != SignalNeeds::kControl && !is_state(term);
     };
     const auto check = [&](const Signal& signal, const SignalDescription& description) {
       if (std::any_of(signal.begin(), signal.end(), is_rate))

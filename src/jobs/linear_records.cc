@@ -50,6 +50,7 @@ Json loops_json(const LinearModel& model) {
                     [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
                       if (margin) entry[name] = record_json(*margin);
                     });
+      if (loop.samples > 1) entry["samples"] = loop.samples;
       entry["response"] = response_of(loop);
     } else {
       entry["why_not"] = loop.why_not;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/signal.h"
+#include "description/signal_table.h"
 #include "linear/integral_rest.h"
 #include "linear/linear_coordinates.h"
 #include "linear/resting_mechanism.h"
@@ -111,6 +113,26 @@ Status creep(double longest, const std::atomic<bool>* cancel, RestingMechanism* 
   return not_found(mechanism, "the motion goes on after " + std::to_string(kMostSteps) + " steps");
 }
 
+/// Names the controllers that read what their own outputs determine, where that leaves no solution.
+Status with_readers(Status status, const CompiledSystem& system) {
+  if (status.code != StatusCode::kSingularMatrix) return status;
+  const auto reads_forces = [](const Signal& signal) {
+    return std::any_of(signal.begin(), signal.end(), [](const SignalReference& term) {
+      const SignalNeeds needs = facts_of(term.kind).needs;
+      return needs == SignalNeeds::kForces || needs == SignalNeeds::kReactions;
+    });
+  };
+  for (std::size_t c = 0; c < system.controllers().size(); ++c) {
+    const Controller& controller = system.controllers()[c];
+    if (reads_forces(controller.input) ||
+        std::any_of(controller.feedback.begin(), controller.feedback.end(), reads_forces))
+      status.cause += "; the controller \"" + system.study().controllers[c].name +
+                      "\" reads accelerations or forces that its output determines, an algebraic "
+                      "loop";
+  }
+  return status;
+}
+
 /// A sampled observer whose model does not rest moves between its samples.
 Status check_estimates(const RestingMechanism& mechanism, const MotionStudy& study) {
   constexpr double kStill = 1e-8;  // [q/s]
@@ -145,7 +167,10 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   Equilibrium found;
   found.names = observer.names();
   found.status = mechanism.begin();
-  if (!found.status.ok()) return found;
+  if (!found.status.ok()) {
+    found.status = with_readers(found.status, system);
+    return found;
+  }
   const double longest = kLongest * system.study().duration;
   FreeMotions free;
   // Efforts that follow estimates do not lead to a rest before these have settled.
@@ -160,8 +185,9 @@ Equilibrium find_equilibrium(const CompiledSystem& system, const std::vector<dou
   if (!found.status.ok()) return found;
   found.state = mechanism.state();
   found.integrals = mechanism.integral_of_controllers();
-  const std::vector<double> estimates = mechanism.estimates_of_controllers();
-  found.integrals.insert(found.integrals.end(), estimates.begin(), estimates.end());
+  for (const std::vector<double>& more :
+       {mechanism.estimates_of_controllers(), mechanism.currents()})
+    found.integrals.insert(found.integrals.end(), more.begin(), more.end());
   found.linear = linear_model({&system, parameters, question, true, found.integrals},
                               mechanism.state(), mechanism.theta());
   found.status = found.linear.status;

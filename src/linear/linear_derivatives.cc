@@ -127,7 +127,20 @@ void LinearDerivatives::step(std::size_t direction) {
   set_flow(A, z);
 }
 
-/// Takes the held outputs that are disturbances from the states, which they end, to the inputs.
+/// The states without the held outputs that are disturbances: currents of motors follow them.
+std::vector<Eigen::Index> LinearDerivatives::kept_states() const {
+  std::vector<Eigen::Index> kept;
+  const Eigen::Index motions = motion_.motions();
+  for (Eigen::Index k = 0; k < motions + system_.layout().states; ++k) {
+    bool is_held = false;
+    for (std::size_t c = controllers_; c < system_.controllers().size(); ++c)
+      is_held = is_held || k == motions + system_.controllers()[c].states.held;
+    if (!is_held) kept.push_back(k);
+  }
+  return kept;
+}
+
+/// Takes the held outputs that are disturbances from the states to the inputs.
 void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& z) {
   const ComplexMotion& motion = space_->motion;
   const Layout& layout = system_.layout();
@@ -146,18 +159,19 @@ void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixX
     for (const auto& entry : gradient.rate) row += entry.value * z.row(entry.column);
     C.row(to_signed(c)) = row;
   }
-  const Eigen::Index held = to_signed(system_.controllers().size() - controllers_),
-                     states = A.cols() - held;
+  const std::vector<Eigen::Index> kept = kept_states();
+  const Eigen::Index states = to_signed(kept.size());
   ComplexSpace& flow = space_->flow;
-  flow.A = A.topLeftCorner(states, states);
-  flow.C = C.leftCols(states);
+  flow.A = A(kept, kept);
+  flow.C = C(Eigen::all, kept);
   flow.B = Eigen::MatrixXcd::Zero(states, to_signed(controllers_));
   flow.D = Eigen::MatrixXcd::Zero(to_signed(controllers_), to_signed(controllers_));
   std::size_t disturbance = controllers_;
   for (std::size_t c = 0; c < controllers_; ++c) {
     if (study_.disturbances[c] < 0) continue;
     const Eigen::Index column = motion.motions + system_.controllers()[disturbance++].states.held;
-    flow.B.col(to_signed(c)) = A.col(column).head(states);
+    for (Eigen::Index k = 0; k < states; ++k)
+      flow.B(k, to_signed(c)) = A(kept[to_index(k)], column);
     flow.D.col(to_signed(c)) = C.col(column);
   }
 }
@@ -170,9 +184,15 @@ PeriodMap<Complex> LinearDerivatives::period_map(int opened) {
           motion_.motions(),
           pattern_,
           opened,
-          [this, &A](const std::vector<ControlEvent>& events) -> Eigen::MatrixXcd {
-            return laws_.jump(events, space_->motion)
-                .topLeftCorner(A.rows() - motion_.motions(), A.cols());
+          [this](const std::vector<ControlEvent>& events) -> Eigen::MatrixXcd {
+            const Eigen::MatrixXcd all = laws_.jump(events, space_->motion);
+            const std::vector<Eigen::Index> kept = kept_states();
+            const Eigen::Index motions = motion_.motions(),
+                               states = to_signed(kept.size()) - motions;
+            Eigen::MatrixXcd after(states, to_signed(kept.size()));
+            for (Eigen::Index k = 0; k < states; ++k)
+              after.row(k) = all.row(kept[to_index(motions + k)] - motions)(kept);
+            return after;
           }};
 }
 
@@ -186,7 +206,7 @@ ComplexSpace LinearDerivatives::loop(std::size_t controller, std::size_t directi
   step(direction);
   if (pattern_.period > 0.0) {
     const PeriodMap<Complex> map = period_map(static_cast<int>(controller));
-    return {map.by_states(), map.by_opened(), map.output(), Eigen::MatrixXcd::Zero(1, 1)};
+    return {map.by_states(), map.by_opened(), map.output(), map.direct()};
   }
   const auto c = to_signed(controller);
   ComplexSpace loop{space_->flow.A, space_->flow.B.col(c), space_->flow.C.row(c),

@@ -59,6 +59,7 @@ class LinearDerivatives {
   void step(std::size_t direction);
   void set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& z);
   Eigen::MatrixXcd directions_of(const Eigen::MatrixXcd& rows) const;
+  std::vector<Eigen::Index> kept_states() const;
   PeriodMap<std::complex<double>> period_map(int opened);
   LinearStudy study_of(const LinearCase& of);
 

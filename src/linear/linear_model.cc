@@ -5,8 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "forces/pade.h"
 #include "linear/linear_motion.h"
+#include "linear/periodic_loop.h"
 #include "linear/sampled_motion.h"
+#include "linear/sliding_friction.h"
 #include "math/arrays.h"
 #include "observation/observer.h"
 
@@ -69,16 +72,25 @@ State<double> carried(const State<double>& state, const System& from, const Syst
   return result;
 }
 
+/// The order of Pade's approximation of the delay of a controller's inputs; 0: it has none.
+int pade_order(const ControllerDescription& controller) {
+  int most = 0;
+  for (std::size_t input = 0; input < filtered_inputs(controller); ++input) {
+    int order = 0;
+    for (const FilterDescription& filter : filters_of(controller, input))
+      if (is_pade(filter.kind)) order += filter.kind->order;
+    most = std::max(most, order);
+  }
+  return most;
+}
+
 class ModelWriter {
  public:
   ModelWriter(const LinearCase& of, const State<double>& state)
       : case_(of),
         study_(with_inputs(bare_study(of), of.parameters, state.t, of.at_rest)),
         controllers_(of.system->study().controllers.size()),
-        system_(of.question.friction == LinearFriction::kOff && of.at_rest
-                    ? without_friction(of.system->robot())
-                    : of.system->robot(),
-                study_.study, of.system->sharing()),
+        system_(counted_robot(of, study_, state), study_.study, of.system->sharing()),
         motion_(system_, study_),
         pattern_(sample_pattern(study_.study)) {}
 
@@ -120,9 +132,16 @@ class ModelWriter {
     for (const ControllerDescription& controller : study_of_case().controllers)
       is_rounded = is_rounded || controller.realization.quantization > 0.0;
     if (pattern_.period > 0.0) in.emplace_back("samples");
-    const bool without = case_.question.friction == LinearFriction::kOff && case_.at_rest;
-    (without ? out : in).emplace_back("friction");
+    const LinearFriction friction =
+        case_.at_rest ? case_.question.friction : LinearFriction::kRegularised;
+    (friction == LinearFriction::kOff ? out : in)
+        .emplace_back(friction == LinearFriction::kGivenSpeed ? "friction at the given speed"
+                                                              : "friction");
     if (is_rounded) out.emplace_back("quantization");
+    for (const ControllerDescription& controller : study_of_case().controllers)
+      if (const int order = pade_order(controller); order > 0)
+        in.push_back("the delay of " + controller.name + " by Pade's order " +
+                     std::to_string(order));
     return listed(in) + " counted" + (out.empty() ? "" : ", " + listed(out) + " not");
   }
 
@@ -144,10 +163,9 @@ class ModelWriter {
   }
 
   std::string why_no_margins(std::size_t c) const {
-    if (!(pattern_.period > 0.0) || pattern_.samples[c] == 1) return "";
-    return pattern_.samples[c] == 0
+    return pattern_.period > 0.0 && pattern_.samples[c] == 0
                ? "the loop of a continuous controller beside sampled ones is no transfer function"
-               : "it samples several times in the common period of all controllers";
+               : "";
   }
 
   ControllerLoop loop_of(std::size_t c) {
@@ -155,12 +173,16 @@ class ModelWriter {
     loop.controller = study_of_case().controllers[c].name;
     loop.why_not = why_no_margins(c);
     if (!loop.why_not.empty()) return loop;
-    const OpenLoop open(pattern_.period > 0.0
-                            ? sampled_loop(&motion_, pattern_, static_cast<int>(c))
-                            : continuous_loop(c));
-    loop.margins = open.margins();
-    loop.frequencies = open.grid();
-    for (const double w : loop.frequencies) loop.response.push_back(open.at(w));
+    const StateSpace closed = pattern_.period > 0.0
+                                  ? sampled_loop(&motion_, pattern_, static_cast<int>(c))
+                                  : continuous_loop(c);
+    loop.samples = static_cast<int>(closed.B.cols());
+    const auto take = [&loop](const auto& open) {
+      loop.margins = open.margins();
+      loop.frequencies = open.grid();
+      for (const double w : loop.frequencies) loop.response.push_back(open.at(w));
+    };
+    loop.samples > 1 ? take(PeriodicLoop(closed)) : take(OpenLoop(closed));
     return loop;
   }
 

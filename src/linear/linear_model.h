@@ -42,6 +42,8 @@ struct LinearMode {
 struct ControllerLoop {
   std::string controller;
   std::string why_not;  ///< why there are no margins; empty: there are
+  /// in the common period of all controllers; several: margins are those of PeriodicLoop
+  int samples = 1;
   LoopMargins margins;
   std::vector<double> frequencies;             ///< [rad/s], ascending
   std::vector<std::complex<double>> response;  ///< L at them

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "equations/formulas.h"
+#include "linear/resting_mechanism.h"
 #include "linear/sampled_motion.h"
 #include "math/arrays.h"
 
@@ -75,6 +76,15 @@ void LinearMotion::settle_estimates(const std::vector<double>& integrals) {
   }
 }
 
+/// Currents that controllers read are those that were found; other ones follow from the outputs.
+void LinearMotion::settle_currents(const std::vector<double>& integrals) {
+  std::size_t next = study_.disturbances.size();
+  for (const Controller& controller : system_.controllers())
+    next += to_index(controller.states.estimates);
+  for (const Winding& winding : read_windings(system_))
+    if (next < integrals.size()) state_.s[winding.state] = integrals[next++];
+}
+
 // Outputs of cascades follow each other: as many rounds as there are controllers settle all.
 void LinearMotion::settle(const std::vector<double>& integrals) {
   const std::vector<Controller>& controllers = system_.controllers();
@@ -82,6 +92,7 @@ void LinearMotion::settle(const std::vector<double>& integrals) {
     for (std::size_t c = 0; c < controllers.size(); ++c)
       if (controllers[c].state >= 0)
         state_.s[controllers[c].state] = c < integrals.size() ? integrals[c] : 0.0;
+    settle_currents(integrals);
     equations_.begin_states(&state_);
     settle_estimates(integrals);
     for (std::size_t c = 0; c < controllers.size(); ++c) {
@@ -98,8 +109,10 @@ void LinearMotion::settle(const std::vector<double>& integrals) {
       state_.s[states.lag] = equations_.formulas().controller_output(static_cast<int>(c));
     }
   }
+  const std::vector<Winding> read = read_windings(system_);
   for (const Winding& winding : system_.windings()) {
-    if (winding.state < 0) continue;
+    const auto is_it = [&winding](const Winding& other) { return other.state == winding.state; };
+    if (winding.state < 0 || std::any_of(read.begin(), read.end(), is_it)) continue;
     equations_.formulas().load(state_);
     state_.s[winding.state] = equations_.formulas().steady_current(winding);
   }

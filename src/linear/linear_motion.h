@@ -29,7 +29,8 @@ class LinearMotion {
   Status linearize(State<double> state);
   /// At rest at positions q: controllers, lags and filters have settled.
   /// @param integrals the states of the integrals of the study's controllers, then the estimates of
-  /// all observers; missing ones are zero, of estimates those of the measured position.
+  /// all observers and the currents that controllers read; missing ones are zero, of estimates
+  /// those of the measured position.
   Status linearize_at_rest(State<double> state, const std::vector<double>& integrals = {});
 
   const CompiledSystem& system() const { return system_; }
@@ -50,6 +51,7 @@ class LinearMotion {
   Status solve_rates();
   void settle(const std::vector<double>& integrals);
   void settle_estimates(const std::vector<double>& integrals);
+  void settle_currents(const std::vector<double>& integrals);
   void set_directions();
   void load_lanes(Eigen::Index first);
   template <class Visit>

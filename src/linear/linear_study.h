@@ -12,11 +12,14 @@ namespace codesign {
 
 /// What of friction a linearization counts.
 enum class LinearFriction {
-  kOff,         ///< nothing but its viscous part
-  kRegularised  ///< all of it, with the slope of its smooth law at the speed of the state
+  kOff,          ///< nothing but its viscous part
+  kRegularised,  ///< all of it, with the slope of its smooth law at the speed of the state
+  /// about rest all of it, with the slope at the speeds of the study's start; what does not move
+  /// there as kRegularised
+  kGivenSpeed
 };
 /// The spelling of each enumerator, in their order.
-constexpr std::array<const char*, 2> kLinearFrictionNames{"off", "regularised"};
+constexpr std::array<const char*, 3> kLinearFrictionNames{"off", "regularised", "given_speed"};
 
 /// A study whose inputs are parameters: what a user may vary about a state, theory (67).
 struct LinearStudy {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "linear/frequency_search.h"
 #include "linear/poles.h"
 #include "math/arrays.h"
 #include "math/linear_systems.h"
@@ -14,125 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kHalfTurn = 3.141592653589793;  // [rad]
-constexpr int kPerDecade = 100;
-constexpr double kBesideRest = 1e-3;  // of the lowest frequency
-constexpr double kBeyond = 1e3;       // the slowest and the fastest pole
-constexpr int kBisections = 200;
 constexpr double kPole = 1e9;  // a value that rounding makes of infinity; of zero its inverse
-
-/// The frequencies of one pole and around it, where the response turns by half.
-void add_around(const Complex& pole, std::vector<double>* grid) {
-  constexpr int kSteps = 24;
-  const double width = std::abs(pole.real()), centre = std::abs(pole.imag());
-  if (std::abs(pole) == 0.0) return;
-  grid->push_back(std::abs(pole));
-  for (int k = -kSteps; k <= kSteps; ++k) {
-    const double at = centre + width * std::sinh(0.2 * k);
-    if (at > 0.0) grid->push_back(at);
-  }
-}
-
-std::vector<double> grid_of(const std::vector<Pole>& closed, const std::vector<Pole>& open,
-                            double period) {
-  double slowest = 0.0, fastest = 0.0;
-  std::vector<double> grid;
-  for (const auto* poles : {&closed, &open})
-    for (const Pole& pole : *poles) {
-      const double size = std::abs(pole.value);
-      if (size <= 10.0 * pole.uncertainty) continue;
-      slowest = slowest == 0.0 ? size : std::min(slowest, size);
-      fastest = std::max(fastest, size);
-      add_around(pole.value, &grid);
-    }
-  if (fastest == 0.0) slowest = fastest = 1.0;
-  double last = kBeyond * fastest;
-  if (period > 0.0) last = kHalfTurn / period;
-  const double first = std::min(slowest / kBeyond, last / kBeyond);
-  const int count = static_cast<int>(kPerDecade * std::log10(last / first)) + 2;
-  for (int k = 0; k <= count; ++k)
-    grid.push_back(first * std::pow(last / first, static_cast<double>(k) / count));
-  grid.erase(
-      std::remove_if(grid.begin(), grid.end(), [&](double w) { return !(w >= first && w < last); }),
-      grid.end());
-  grid.push_back(last);
-  std::sort(grid.begin(), grid.end());
-  grid.erase(std::unique(grid.begin(), grid.end()), grid.end());
-  return grid;
-}
-
-/// A zero of a function between two frequencies at which its signs differ.
-template <class Function>
-double zero_between(double low, double high, const Function& function) {
-  const bool rises = function(low) < 0.0;
-  for (int k = 0; k < kBisections; ++k) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= low || middle >= high) break;
-    ((function(middle) < 0.0) == rises ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
-/// The largest value near a point of the grid, by golden sections between its neighbours.
-template <class Function>
-AtFrequency peak_between(double low, double high, const Function& function) {
-  constexpr double kGolden = 0.6180339887498949;
-  constexpr int kSections = 80;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double at_a = function(a), at_b = function(b);
-  for (int k = 0; k < kSections; ++k) {
-    if (at_a > at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - kGolden * (high - low);
-      at_a = function(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + kGolden * (high - low);
-      at_b = function(b);
-    }
-  }
-  return at_a > at_b ? AtFrequency{at_a, a} : AtFrequency{at_b, b};
-}
-
-/// The peaks on a grid, the highest one first; an end of the grid only if nothing is higher.
-template <class Function>
-std::vector<AtFrequency> peaks(const std::vector<double>& grid, const Function& function) {
-  constexpr std::size_t kRefined = 8;
-  std::vector<double> values;
-  values.reserve(grid.size());
-  for (const double w : grid) values.push_back(function(w));
-  std::vector<std::size_t> places;
-  for (std::size_t k = 0; k < grid.size(); ++k)
-    if ((k == 0 || values[k] > values[k - 1]) &&
-        (k + 1 == grid.size() || values[k] >= values[k + 1]))
-      places.push_back(k);
-  std::stable_sort(places.begin(), places.end(),
-                   [&](std::size_t one, std::size_t other) { return values[one] > values[other]; });
-  if (places.size() > kRefined) places.resize(kRefined);
-  std::vector<AtFrequency> found;
-  for (const std::size_t k : places) {
-    const bool is_end = k == 0 || k + 1 == grid.size();
-    if (is_end && !found.empty()) continue;
-    found.push_back({values[k], grid[k]});
-    if (is_end) continue;
-    const AtFrequency peak = peak_between(grid[k - 1], grid[k + 1], function);
-    if (peak.value > values[k]) found.back() = peak;
-  }
-  return found;
-}
-
-/// Sorts numbers by their size, the one that decides first. @returns it.
-template <class Decides>
-std::optional<AtFrequency> sort(std::vector<AtFrequency>* all, const Decides& decides) {
-  std::stable_sort(all->begin(), all->end(), [&](const auto& one, const auto& other) {
-    return decides(one.value, other.value);
-  });
-  return all->empty() ? std::nullopt : std::optional<AtFrequency>(all->front());
-}
 
 /// Takes a crossing of the negative real axis, but not one through infinity, at a pole, or through
 /// zero.
@@ -167,7 +50,7 @@ OpenLoop::OpenLoop(const StateSpace& closed) : period_(closed.period), open_(clo
       Functions{TransferFunction(closed.A, closed.B, closed.C, d),
                 TransferFunction(open_.A, open_.B, open_.C, open_.D(0, 0))});
   is_stable_ = is_stable_with(1.0);
-  grid_ = grid_of(poles_of(closed), poles_of(open_), period_);
+  grid_ = frequencies_about(poles_of(closed), poles_of(open_), period_);
 }
 
 OpenLoop::~OpenLoop() = default;
@@ -213,10 +96,10 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
         zero_between(grid_[k], grid_[k + 1], [&](double at_w) { return std::abs(at(at_w)) - 1.0; });
     take_phase(at(w), w, &margins->all);
   }
-  margins->gain_margin = sort(&margins->all.gains, std::less<>());
-  margins->gain_reduction = sort(&margins->all.reductions, std::greater<>());
-  margins->phase_margin = sort(&margins->all.phases, std::less<>());
-  margins->delay_margin = sort(&margins->all.delays, std::less<>());
+  margins->gain_margin = sort_margins(&margins->all.gains, std::less<>());
+  margins->gain_reduction = sort_margins(&margins->all.reductions, std::greater<>());
+  margins->phase_margin = sort_margins(&margins->all.phases, std::less<>());
+  margins->delay_margin = sort_margins(&margins->all.delays, std::less<>());
 }
 
 // At infinite frequency L is its direct part.
@@ -227,8 +110,8 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   all.complementaries = peaks(grid_, complementary);
   const double far = functions_->closed.at_infinity();
   if (period_ == 0.0) all.sensitivities.push_back({std::abs(1.0 + far), grid_.back()});
-  margins->sensitivity = sort(&all.sensitivities, std::greater<>());
-  margins->complementary = sort(&all.complementaries, std::greater<>());
+  margins->sensitivity = sort_margins(&all.sensitivities, std::greater<>());
+  margins->complementary = sort_margins(&all.complementaries, std::greater<>());
   // A motion that the loop does not see, such as the position of a speed loop, is a pole at w = 0.
   margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
   const double level = std::sqrt(0.5) * complementary(margins->rest);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "linear/periodic_derivatives.h"
 #include "math/arrays.h"
 #include "math/linear_systems.h"
 
@@ -297,6 +298,7 @@ std::vector<AtFrequency> margins_of(const LoopMargins& margins, Kind kind) {
 
 double derivative_of(const AtFrequency& margin, Kind kind, double rest, const ComplexSpace& closed,
                      double period) {
+  if (closed.B.cols() > 1) return periodic_derivative_of(margin, kind, rest, closed, period);
   const Loop loop(closed, period);
   switch (kind) {
     case Kind::kGainMargin:

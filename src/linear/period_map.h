@@ -14,8 +14,9 @@
 
 namespace codesign {
 
-/// The map of [x | u | w] over one period, theory (68), w only where a loop is opened. T: double,
-/// or std::complex<double>, whose imaginary parts are derivatives.
+/// The map of [x | u | w] over one period, theory (68), w only where a loop is opened: one entry
+/// per sample of its controller. T: double, or std::complex<double>, whose imaginary parts are
+/// derivatives.
 template <class T>
 class PeriodMap {
  public:
@@ -34,12 +35,13 @@ class PeriodMap {
         jump_(std::move(jump)),
         states_(A.rows()),
         inputs_(B.cols()),
-        total_(states_ + inputs_ + (opened >= 0 ? 1 : 0)) {
+        opened_samples_(opened >= 0 ? pattern.samples[to_index(opened)] : 0),
+        total_(states_ + inputs_ + opened_samples_) {
     map_ = Matrix::Identity(total_, total_);
     rate_ = Matrix::Zero(total_, total_);
     rate_.topLeftCorner(states_, states_) = A;
     rate_.block(0, states_, states_, inputs_) = B;
-    output_ = Matrix::Zero(1, total_);
+    output_ = Matrix::Zero(opened_samples_, total_);
     for (std::size_t k = 0; k < pattern_.instants.size(); ++k) {
       cross(pattern_.instants[k].events);
       const bool is_last = k + 1 == pattern_.instants.size();
@@ -51,10 +53,11 @@ class PeriodMap {
 
   Matrix by_states() const { return map_.topLeftCorner(states_, states_); }
   Matrix by_inputs() const { return map_.block(0, states_, states_, inputs_); }
-  /// Of the opened loop: the states by w, and the output that the controller computes by the
-  /// states.
-  Matrix by_opened() const { return map_.block(0, total_ - 1, states_, 1); }
+  /// Of the opened loop: the states by w, and the outputs that the controller computes by the
+  /// states and by w of earlier samples.
+  Matrix by_opened() const { return map_.topRightCorner(states_, opened_samples_); }
   Matrix output() const { return output_.leftCols(states_); }
+  Matrix direct() const { return output_.rightCols(opened_samples_); }
 
  private:
   void apply(const std::vector<ControlEvent>& events) {
@@ -80,8 +83,8 @@ class PeriodMap {
       apply(waiting);
       waiting.clear();
       const Eigen::Index place = motions_ + place_of(event);
-      output_ = map_.row(place);
-      map_(place, total_ - 1) += 1.0;
+      output_.row(sampled_) = map_.row(place);
+      map_(place, total_ - opened_samples_ + sampled_++) += 1.0;
     }
     apply(waiting);
   }
@@ -110,7 +113,8 @@ class PeriodMap {
   const SamplePattern& pattern_;
   const int opened_;
   const Jump jump_;
-  Eigen::Index states_, inputs_, total_;
+  Eigen::Index states_, inputs_, opened_samples_, total_;
+  Eigen::Index sampled_ = 0;  ///< samples of the opened controller so far
   Matrix map_, rate_, output_;
   std::map<double, Matrix> flows_;
 };

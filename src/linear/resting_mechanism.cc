@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "linear/resting_mechanism.h"
 
+#include <algorithm>
+
 #include "assembly/assembly.h"
 #include "control/reference.h"
 #include "description/study.h"
@@ -58,19 +60,52 @@ Study study_at_rest(Study study, const std::vector<double>& parameters) {
   return study;
 }
 
-/// The mechanism whose currents are those at which they stay.
-RobotDescription robot_at_rest(RobotDescription robot) {
-  for (JointDescription& joint : robot.joints)
-    if (joint.has_winding()) joint.actuator->winding->inductance = Quantity(0.0);
+/// The mechanism whose currents are those at which they stay, but for those that controllers read.
+RobotDescription robot_at_rest(const System& system) {
+  RobotDescription robot = system.robot();
+  const std::vector<Winding> read = read_windings(system);
+  for (std::size_t j = 0; j < robot.joints.size(); ++j) {
+    JointDescription& joint = robot.joints[j];
+    const bool is_read = std::any_of(read.begin(), read.end(), [&](const Winding& winding) {
+      return system.topology()
+                     .pairs[to_index(winding.pair)]
+                     .chain[to_index(winding.element)]
+                     .joint == static_cast<int>(j) ||
+             winding.joint == joint.name;
+    });
+    if (joint.has_winding() && !is_read) joint.actuator->winding->inductance = Quantity(0.0);
+  }
   return robot;
 }
 
 }  // namespace
 
+std::vector<Winding> read_windings(const System& system) {
+  std::vector<Winding> read;
+  for (const Winding& winding : system.windings()) {
+    const auto is_its = [&](const SignalReference& term) {
+      return term.kind == SignalKind::kCurrent &&
+             system.motor_of(term.pair, term.element) ==
+                 CoordinateIndex{winding.pair, winding.element};
+    };
+    const auto reads = [&](const Signal& signal) {
+      return std::any_of(signal.begin(), signal.end(), is_its);
+    };
+    for (const Controller& controller : system.controllers())
+      if (winding.state >= 0 &&
+          (reads(controller.input) ||
+           std::any_of(controller.feedback.begin(), controller.feedback.end(), reads))) {
+        read.push_back(winding);
+        break;
+      }
+  }
+  return read;
+}
+
 RestingMechanism::RestingMechanism(const CompiledSystem& system,
                                    const std::vector<double>& parameters)
     : system_{std::make_shared<const CompiledSystem>(
-                  robot_at_rest(system.robot()), study_at_rest(system.whole_study(), parameters),
+                  robot_at_rest(system), study_at_rest(system.whole_study(), parameters),
                   system.sharing()),
               {},
               {}},
@@ -86,6 +121,10 @@ RestingMechanism::RestingMechanism(const CompiledSystem& system,
       integrals_.push_back(controller.states.estimate + k);
       has_estimates_ = true;
     }
+  for (const Winding& winding : read_windings(*system_.system)) {
+    integrals_.push_back(winding.state);
+    has_estimates_ = true;
+  }
 }
 
 Status RestingMechanism::begin() {
@@ -147,6 +186,13 @@ std::vector<double> RestingMechanism::estimates_of_controllers() const {
   for (const Controller& controller : system_.system->controllers())
     for (int k = 0; k < controller.states.estimates; ++k)
       values.push_back(state_.s[controller.states.estimate + k]);
+  return values;
+}
+
+std::vector<double> RestingMechanism::currents() const {
+  std::vector<double> values;
+  for (const Winding& winding : read_windings(*system_.system))
+    values.push_back(state_.s[winding.state]);
   return values;
 }
 

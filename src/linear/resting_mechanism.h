@@ -39,6 +39,9 @@ class RestingMechanism {
   /// The estimates of all observers. They are numbers to be chosen as those of integrals are, in
   /// integrals(), and their rates in errors().
   std::vector<double> estimates_of_controllers() const;
+  /// The currents of windings that controllers read, which are such numbers, too.
+  std::vector<double> currents() const;
+  /// Whether efforts follow from estimates or currents, which settle by themselves.
   bool has_estimates() const { return has_estimates_; }
 
   /// An orthonormal basis N of the velocities that the constraints allow.
@@ -58,11 +61,14 @@ class RestingMechanism {
   const Layout& layout_;
   const std::vector<double> parameters_;
   DrivenMotion motion_;
-  std::vector<int> integrals_;  ///< indices of extra states, behind those of integrals of estimates
+  std::vector<int> integrals_;  ///< indices of extra states: of integrals, estimates, currents
   bool has_estimates_ = false;
   Linearization<double> derivatives_;
   State<double> state_;
   VectorX<double> theta_;
 };
+
+/// The windings whose current is a state and a controller reads it.
+std::vector<Winding> read_windings(const System& system);
 
 }  // namespace codesign

@@ -136,14 +136,15 @@ StateSpace sampled_motion(LinearMotion* motion, const SamplePattern& pattern) {
 StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int controller) {
   const PeriodMap<double> map = period_map(motion, pattern, controller);
   const std::string& name = motion->system().study().controllers[to_index(controller)].name;
+  const auto samples = to_index(pattern.samples[to_index(controller)]);
   return {pattern.period,
           motion->flow().states,
-          {name + "/disturbance"},
-          {name + "/output"},
+          std::vector<std::string>(samples, name + "/disturbance"),
+          std::vector<std::string>(samples, name + "/output"),
           map.by_states(),
           map.by_opened(),
           map.output(),
-          Eigen::MatrixXd::Zero(1, 1)};
+          map.direct()};
 }
 
 }  // namespace codesign

@@ -34,9 +34,9 @@ SamplePattern sample_pattern(const MotionStudy& study);
 /// outputs are counted from the next sample on. Outputs are those at the begin of a period.
 StateSpace sampled_motion(LinearMotion* motion, const SamplePattern& pattern);
 
-/// The loop that is opened at the output of a sampled controller whose samples are those of the
-/// pattern: the input is added to each new output, the output is the output that the controller
-/// computes. x(k+1) = A x(k) + B w(k), y(k) = C x(k).
+/// The loop that is opened at the output of a sampled controller: inputs w are added to each new
+/// output, outputs y are those that the controller computes, one each per sample in the period.
+/// x(k+1) = A x(k) + B w(k), y(k) = C x(k) + D w(k), with D strictly lower triangular.
 StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int controller);
 
 }  // namespace codesign

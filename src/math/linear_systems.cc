@@ -2,6 +2,7 @@
 #include "math/linear_systems.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -130,6 +131,43 @@ Eigen::MatrixXcd within_circle(const MatrixXd& A, std::complex<double> centre, d
 }
 
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B) { return A * B; }
+
+namespace {
+
+/// A, and the diagonal of the similarity that balances it.
+Eigen::VectorXd balance(Eigen::MatrixXcd* A) {
+  MatrixXd sizes = A->cwiseAbs();
+  Eigen::VectorXd scale = balance(&sizes);
+  *A = (scale.cwiseInverse().asDiagonal() * *A * scale.asDiagonal()).eval();
+  return scale;
+}
+
+}  // namespace
+
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& A) {
+  if (A.rows() == 0) return {};
+  Eigen::MatrixXcd balanced = A;
+  balance(&balanced);
+  return Eigen::ComplexEigenSolver<Eigen::MatrixXcd>(balanced, false).eigenvalues();
+}
+
+std::vector<EigenTriple> complex_eigen(const Eigen::MatrixXcd& A) {
+  std::vector<EigenTriple> triples;
+  if (A.rows() == 0) return triples;
+  Eigen::MatrixXcd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::ComplexEigenSolver<Eigen::MatrixXcd> solver(balanced);
+  const Eigen::MatrixXcd inverse = solver.eigenvectors().inverse();
+  for (Index k = 0; k < A.rows(); ++k)
+    triples.push_back({solver.eigenvalues()[k], scale.asDiagonal() * solver.eigenvectors().col(k),
+                       scale.cwiseInverse().asDiagonal() * inverse.row(k).transpose()});
+  return triples;
+}
+
+LargestGain largest_gain(const Eigen::MatrixXcd& A) {
+  const Eigen::JacobiSVD<Eigen::MatrixXcd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  return {svd.singularValues()[0], svd.matrixU().col(0), svd.matrixV().col(0)};
+}
 
 TransferFunction::TransferFunction(const MatrixXd& A, const Eigen::VectorXd& b,
                                    const Eigen::RowVectorXd& c, double d)

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <complex>
 #include <functional>
+#include <vector>
 
 namespace codesign {
 
@@ -34,6 +35,24 @@ Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A);
 /// The solutions of A x = b, one per column, by LU with partial pivoting; A b.
 Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);
 Eigen::MatrixXcd product(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& B);
+
+/// The eigenvalues of a complex matrix, by QR after the same balancing.
+Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& A);
+/// An eigenvalue with its vectors, A right = value right, left^T A = value left^T, left^T right
+/// = 1.
+struct EigenTriple {
+  std::complex<double> value;
+  Eigen::VectorXcd right, left;
+};
+/// All of them; left ones are not finite where eigenvalues meet in one vector.
+std::vector<EigenTriple> complex_eigen(const Eigen::MatrixXcd& A);
+
+/// The largest singular value of A, with left^H A right = value.
+struct LargestGain {
+  double value = 0.0;
+  Eigen::VectorXcd left, right;
+};
+LargestGain largest_gain(const Eigen::MatrixXcd& A);
 
 /// f(A) on the invariant subspace of the eigenvalues within a circle, and zero on that of all
 /// others: the integral of f(z) (z I - A)^-1 dz / (2 pi i) by the trapezoidal rule, which converges

@@ -222,7 +222,7 @@ LinearModel Session::linearize(const std::vector<double>& parameters,
                       "friction",
                       "this is no way to count friction about rest",
                       friction,
-                      "off or regularised"});
+                      "off, regularised or given_speed"});
   if (at && !(*at >= 0.0 && std::isfinite(*at)))
     throw InputError({{kCall, 0}, "at", "not a time of the run", to_decimal(*at), "0 s or more"});
   const LinearQuestion question{

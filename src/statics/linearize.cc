@@ -29,6 +29,13 @@ LinearModel linearize_in_motion(const CompiledSystem& system, const std::vector<
                       study.postures > 0 ? "" : to_decimal(t),
                       study.postures > 0 ? "a study with duration and initial_state"
                                          : "at most " + to_decimal(study.duration) + " s"});
+  if (question.friction == LinearFriction::kGivenSpeed)
+    throw InputError({{study.file, 1},
+                      "initial_state",
+                      "friction at a given speed is one about rest, and an instant of a run is "
+                      "asked for, where friction counts with its speeds",
+                      "",
+                      "one of the two"});
   const std::unique_ptr<Integrator> run = make_integrator(system);
   run->obey(cancel);
   LinearModel failed;

@@ -17,8 +17,8 @@ LinearModel linearize_at_rest(const CompiledSystem& system, const std::vector<do
 
 /// Small deviations from a run at time t, as if its coefficients stayed as they are then. All
 /// friction counts, with the slope that it has at the speeds of the run.
-/// @param t [s] at most the duration of the study. @throws InputError for a later time, and for a
-/// study of postures. Statuses: those of a run.
+/// @param t [s] at most the duration of the study. @throws InputError for a later time, for a
+/// study of postures, and for friction at a given speed. Statuses: those of a run.
 LinearModel linearize_in_motion(const CompiledSystem& system, const std::vector<double>& parameters,
                                 const LinearQuestion& question, double t,
                                 const std::atomic<bool>* cancel = nullptr);

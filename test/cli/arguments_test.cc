@@ -132,7 +132,7 @@ TEST(Arguments, OfALinearization) {
   EXPECT_LT(parse_arguments({"linearize", "m", "s"}).time, 0.0);
   expect_usage_error({"linearize", "m", "s", "--at", "-1"}, "--at must be a time of the run");
   expect_usage_error({"linearize", "m", "s", "--friction", "on"},
-                     "--friction must be off or regularised, not \"on\"");
+                     "--friction must be off, regularised or given_speed, not \"on\"");
   expect_usage_error({"simulate", "m", "s", "--at", "1"}, "takes no --at");
 }
 

@@ -195,6 +195,44 @@ TEST(RestNumbers, OfSampledCascadesAndOtherLaws) {
         1e-7, 2);
 }
 
+// The inner loop samples three times in the common period, in which the outer one reads it once.
+TEST(RestNumbers, OfLoopsOfSeveralSampleTimes) {
+  expect_derivatives(
+      carts(1, {damped(1.0)}),
+      tuned({{"Kv", 3.0}, {"Kp", 8.0}, {"Ki", 2.0}, {"tau", 0.03}}) +
+          controlled("outer: {type: pid, input: x0/position, setpoint: 0.2, gains: {p: \"${Kv}\"}, "
+                     "sample_time: 0.15}, inner: {type: pid, input: x0/velocity - outer/output, "
+                     "setpoint: 0, output: x0, gains: {p: \"${Kp}\", i: \"${Ki}\"}, sample_time: "
+                     "0.05, time_constant: \"${tau}\"}") +
+          bounds("inner", kSampledMeasures, kSampledPoles),
+      1e-7, 1);
+}
+
+// The current is a state behind those of controllers, and an inner loop may read it.
+TEST(RestNumbers, OfMotorsAndTheirCurrents) {
+  const std::string motor = carts(
+      1,
+      {sprung(4.0, 0.1) +
+       R"(<codesign:actuator rotor_inertia="0" resistance="0.5" torque_constant="0.2" inductance="0.01"/>)"});
+  expect_derivatives(motor,
+                     tuned({{"p", 20.0}, {"d", 2.0}}) +
+                         controlled(cart_servo("gains: {p: \"${p}\", d: \"${d}\"}")) +
+                         bounds("servo0", {"phase_margin", "delay_margin", "sensitivity"}),
+                     1e-7, 2);
+  for (const std::string sampled : {"", ", sample_time: 0.002"})
+    expect_derivatives(
+        motor,
+        tuned({{"p", 3.0}, {"i", 200.0}, {"k", 60.0}}) +
+            controlled("outer: {type: state_feedback, feedback: [{signal: x0/position, gain: "
+                       "\"${k}\", reference: 0.1}, {signal: x0/velocity, gain: 8}]" +
+                       (sampled.empty() ? "" : std::string(", sample_time: 0.006")) +
+                       "}, inner: {type: pid, input: x0/current - outer/output, setpoint: 0, "
+                       "output: x0, gains: {p: \"${p}\", i: \"${i}\"}" +
+                       sampled + "}") +
+            bounds("inner", {"phase_margin", "delay_margin", "bandwidth"}),
+        1e-7, 1);
+}
+
 // Chains of filters before a PID with all of its memory, and before each signal of a feedback.
 TEST(RestNumbers, OfSampledFilters) {
   expect_derivatives(

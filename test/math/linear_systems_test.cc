@@ -68,5 +68,35 @@ TEST(LinearSystems, TransferFunctionOfAThirdOrderLag) {
       3.0);
 }
 
+Eigen::MatrixXcd complex_example() {
+  Eigen::MatrixXcd A(3, 3);
+  using C = std::complex<double>;
+  A << C(1.0, 2.0), C(1e5, 0.0), C(0.0, 3.0), C(2e-5, 1e-5), C(-1.0, 0.5), C(4e-5, 0.0),
+      C(1.0, 1.0), C(3e5, -1e5), C(0.3, 0.0);
+  return A;
+}
+
+// States whose units differ by 1e5.
+TEST(LinearSystems, ComplexEigenvaluesWithTheirVectors) {
+  const Eigen::MatrixXcd A = complex_example();
+  const Eigen::VectorXcd values = complex_eigenvalues(A);
+  for (const EigenTriple& pole : complex_eigen(A)) {
+    EXPECT_LT((values.array() - pole.value).abs().minCoeff(), 1e-13);
+    EXPECT_LT((A * pole.right - pole.value * pole.right).norm(), 1e-12 * pole.right.norm());
+    EXPECT_LT((pole.left.transpose() * A - pole.value * pole.left.transpose()).norm(),
+              1e-7 * pole.left.norm());
+    EXPECT_LT(std::abs((pole.left.transpose() * pole.right)(0, 0) - 1.0), 1e-13);
+  }
+  EXPECT_LT(std::abs(values.sum() - A.trace()), 1e-13);
+}
+
+TEST(LinearSystems, TheLargestGain) {
+  Eigen::MatrixXcd A(2, 2);
+  A << std::complex<double>(0.0, 3.0), 0.0, 0.0, std::complex<double>(-5.0, 0.0);
+  const LargestGain gain = largest_gain(A);
+  EXPECT_NEAR(gain.value, 5.0, 1e-15);
+  EXPECT_LT(std::abs(gain.left.dot(A * gain.right) - 5.0), 1e-14);
+}
+
 }  // namespace
 }  // namespace codesign

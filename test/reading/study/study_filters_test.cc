@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "description/study.h"
+#include "forces/pade.h"
 #include "reading/study/study_fixture.h"
 
 namespace codesign {
@@ -33,6 +34,23 @@ TEST(StudyFilters, OneOrAList) {
   EXPECT_EQ(two[0].numbers.at(2).nominal(), 0.0);
   EXPECT_EQ(two[1].kind, FilterKind::kLeadLag);
   EXPECT_EQ(two[1].numbers.at(1).nominal(), 9.0);
+}
+
+TEST(StudyFilters, PadesApproximationIsAListOfAllPasses) {
+  const std::string pid =
+      "speed: {type: pid, input: crank_joint/velocity, setpoint: 0, output: crank_joint, gains: "
+      "{p: 1}, filter: {type: pade, delay: \"${f}\", order: ";
+  const std::vector<FilterDescription> filters =
+      with_controllers(pid + "3}}").controllers.at(0).filters;
+  ASSERT_EQ(filters.size(), 2U) << "a pair and a pole";
+  for (const FilterDescription& filter : filters) {
+    EXPECT_TRUE(is_pade(filter.kind));
+    EXPECT_FALSE(filter.numbers.at(0).is_constant());
+  }
+  EXPECT_THROW(with_controllers(pid + "0}}"), InputError);
+  EXPECT_THROW(with_controllers(pid + "11}}"), InputError);
+  EXPECT_THROW(with_controllers(pid + "2}, sample_time: 0.01}"), InputError)
+      << "its delay is exact";
 }
 
 TEST(StudyFilters, OfTheSignalsOfStateFeedback) {

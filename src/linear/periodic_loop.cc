@@ -1,0 +1,265 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "linear/periodic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "linear/frequency_search.h"
+#include "linear/poles.h"
+#include "math/linear_systems.h"
+
+namespace codesign {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+
+constexpr double kOutside = 1e-6;  // beyond the unit circle, more than rounding
+constexpr double kMostGain = 1e9;  // a larger factor counts as none
+
+MatrixXcd unit(Eigen::Index size) { return MatrixXcd::Identity(size, size); }
+
+}  // namespace
+
+OpenedPeriod::OpenedPeriod(const StateSpace& closed)
+    : OpenedPeriod(closed.A, closed.B, closed.C, closed.D) {}
+
+// With w = u - y the closed loop from w to y becomes the open one from u to y.
+OpenedPeriod::OpenedPeriod(const Eigen::MatrixXd& closed_A, const Eigen::MatrixXd& closed_B,
+                           const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D) {
+  const MatrixXcd per =
+      complex_solution(unit(closed_D.rows()) + closed_D.cast<Complex>(), unit(closed_D.rows()));
+  const Eigen::MatrixXd E = per.real();
+  C = E * closed_C;
+  D = E * closed_D;
+  A = closed_A - closed_B * C;
+  B = closed_B * E;
+}
+
+MatrixXcd OpenedPeriod::outputs(Complex factor) const {
+  return complex_solution(unit(D.rows()) - factor * D.cast<Complex>(), C.cast<Complex>());
+}
+
+MatrixXcd OpenedPeriod::closed_by(Complex factor) const {
+  return A.cast<Complex>() + factor * product(B.cast<Complex>(), outputs(factor));
+}
+
+// With F = (I - k D)^-1: d(k F)/dk = F F.
+MatrixXcd OpenedPeriod::by_factor(Complex factor) const {
+  return product(B.cast<Complex>(),
+                 complex_solution(unit(D.rows()) - factor * D.cast<Complex>(), outputs(factor)));
+}
+
+Eigen::VectorXcd sinusoid(double frequency, Eigen::Index samples, double period) {
+  Eigen::VectorXcd values(samples);
+  for (Eigen::Index k = 0; k < samples; ++k)
+    values[k] =
+        std::polar(1.0, frequency * period * static_cast<double>(k) / static_cast<double>(samples));
+  return values;
+}
+
+double main_frequency(const Eigen::VectorXcd& samples, double angle, double period) {
+  const Eigen::Index count = samples.size();
+  double main = angle / period, largest = -1.0;
+  for (Eigen::Index m = -count / 2; m <= count / 2; ++m) {
+    const double frequency = (angle + 2.0 * kHalfTurn * static_cast<double>(m)) / period;
+    if (std::abs(frequency) * period > kHalfTurn * static_cast<double>(count) * (1.0 + 1e-9))
+      continue;
+    const double part = std::abs(sinusoid(frequency, count, period).dot(samples));
+    if (part <= largest * (1.0 + 1e-9)) continue;
+    largest = part;
+    main = frequency;
+  }
+  return main;
+}
+
+PeriodicLoop::PeriodicLoop(const StateSpace& closed)
+    : closed_(closed), open_(closed), samples_(closed.B.cols()), period_(closed.period) {
+  const std::vector<Pole> poles = poles_of(closed);
+  is_stable_ = std::none_of(poles.begin(), poles.end(),
+                            [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
+  StateSpace open = closed;
+  open.A = open_.A;
+  const std::vector<Pole> opened = poles_of(open);
+  grid_ = frequencies_about(poles, opened, period_ / static_cast<double>(samples_));
+  of_period_ = frequencies_about(poles, opened, period_);
+}
+
+MatrixXcd PeriodicLoop::response(double frequency) const {
+  const Complex z = std::polar(1.0, frequency * period_);
+  const MatrixXcd x = complex_solution(z * unit(closed_.A.rows()) - closed_.A.cast<Complex>(),
+                                       closed_.B.cast<Complex>());
+  return product(closed_.C.cast<Complex>(), x) + closed_.D.cast<Complex>();
+}
+
+Complex PeriodicLoop::closed_at(double frequency) const {
+  const Eigen::VectorXcd e = sinusoid(frequency, samples_, period_);
+  return e.dot(product(response(frequency), e).col(0)) / static_cast<double>(samples_);
+}
+
+Complex PeriodicLoop::at(double frequency) const {
+  const MatrixXcd e = sinusoid(frequency, samples_, period_);
+  const MatrixXcd B = open_.B.cast<Complex>(), C = open_.C.cast<Complex>(),
+                  D = open_.D.cast<Complex>();
+  const Complex z = std::polar(1.0, frequency * period_);
+  const MatrixXcd x =
+      complex_solution(z * unit(open_.A.rows()) - open_.A.cast<Complex>(), product(B, e));
+  const MatrixXcd y = product(C, x) + product(D, e);
+  return -e.col(0).dot(y.col(0)) / static_cast<double>(samples_);
+}
+
+namespace {
+
+Complex factor_at(bool is_lag, double place) {
+  return is_lag ? std::polar(1.0, -place) : Complex(std::exp(place));
+}
+
+}  // namespace
+
+int PeriodicLoop::unstable_with(Complex factor) const {
+  const MatrixXcd map = open_.closed_by(factor);
+  if (!map.allFinite()) return -1;
+  const Eigen::VectorXcd values = complex_eigenvalues(map);
+  return static_cast<int>((values.array().abs() > 1.0 + kOutside).count());
+}
+
+/// Halves the interval in which the number of poles outside changes, then goes to |z| = 1 by
+/// Newton's method for the pole that moves.
+PeriodicLoop::Crossing PeriodicLoop::crossing_between(Along along, double low, double high) const {
+  constexpr int kHalvings = 40, kCorrections = 6;
+  constexpr double kBeside = 1e-4;
+  const bool is_lag = along == Along::kLag;
+  const int before = unstable_with(factor_at(is_lag, low));
+  for (int k = 0; k < kHalvings; ++k) {
+    const double middle = 0.5 * (low + high);
+    (unstable_with(factor_at(is_lag, middle)) == before ? low : high) = middle;
+  }
+  Crossing found{0.5 * (low + high), 0.0};
+  for (int k = 0; k < kCorrections; ++k) {
+    const Complex factor = factor_at(is_lag, found.place);
+    const Complex turn = is_lag ? Complex(0.0, -1.0) * factor : factor;
+    const MatrixXcd by_place = turn * open_.by_factor(factor);
+    double fastest = 0.0, step = 0.0;
+    for (const EigenTriple& pole : complex_eigen(open_.closed_by(factor))) {
+      const double beside = std::log(std::abs(pole.value));
+      if (!(std::abs(beside) < kBeside)) continue;
+      const Complex moves = product(pole.left.transpose(), product(by_place, pole.right))(0, 0);
+      const double speed = (moves / pole.value).real();
+      if (!(std::abs(speed) > fastest)) continue;
+      fastest = std::abs(speed);
+      step = -beside / speed;
+      found.frequency = main_frequency(product(open_.outputs(factor), pole.right).col(0),
+                                       std::arg(pole.value), period_);
+    }
+    if (!(std::abs(step) < 0.1)) break;
+    found.place += step;
+    if (std::abs(step) < 1e-15) break;
+  }
+  return found;
+}
+
+std::vector<PeriodicLoop::Crossing> PeriodicLoop::crossings(Along along, double first, double last,
+                                                            int steps) const {
+  const bool is_lag = along == Along::kLag;
+  std::vector<Crossing> found;
+  double place = first;
+  int count = unstable_with(factor_at(is_lag, first));
+  for (int k = 1; k <= steps; ++k) {
+    const double next = first + (last - first) * k / steps;
+    const int there = unstable_with(factor_at(is_lag, next));
+    if (there < 0) break;
+    if (there != count) {
+      found.push_back(crossing_between(along, place, next));
+      // Of gains the first one counts, of an unstable loop the one that leaves nothing outside.
+      if (!is_lag && (is_stable_ || there == 0)) break;
+    }
+    place = next;
+    count = there;
+  }
+  return found;
+}
+
+void PeriodicLoop::find_gains(LoopMargins* margins) const {
+  constexpr int kSteps = 700;  // 3 % each
+  const double most = std::log(kMostGain);
+  const auto take = [&](double last, std::vector<AtFrequency>* all) {
+    for (const Crossing& crossing : crossings(Along::kGain, 0.0, last, kSteps))
+      all->push_back({std::exp(crossing.place), std::abs(crossing.frequency)});
+  };
+  if (is_stable_) take(most, &margins->all.gains);
+  take(-most, &margins->all.reductions);
+  margins->gain_margin = sort_margins(&margins->all.gains, std::less<>());
+  // Of a loop that is unstable the last one leads to gains at which it is stable.
+  margins->gain_reduction = sort_margins(&margins->all.reductions, std::less<>());
+  if (is_stable_ || !margins->gain_reduction) return;
+  constexpr double kBelow = 0.999;
+  if (unstable_with(kBelow * margins->gain_reduction->value) != 0) {
+    margins->all.reductions.clear();
+    margins->gain_reduction.reset();
+  } else {
+    margins->all.reductions = {*margins->gain_reduction};
+  }
+}
+
+// A lag of a positive frequency is a lead of the negative one.
+void PeriodicLoop::find_lags(LoopMargins* margins) const {
+  constexpr int kSteps = 720;  // a quarter of a degree each
+  for (const Crossing& crossing : crossings(Along::kLag, 0.0, kHalfTurn, kSteps)) {
+    const double frequency = std::abs(crossing.frequency);
+    margins->all.phases.push_back({crossing.place, frequency});
+    const double lag =
+        crossing.frequency >= 0.0 ? crossing.place : 2.0 * kHalfTurn - crossing.place;
+    if (frequency > 0.0) margins->all.delays.push_back({lag / frequency, frequency});
+  }
+  margins->phase_margin = sort_margins(&margins->all.phases, std::less<>());
+  margins->delay_margin = sort_margins(&margins->all.delays, std::less<>());
+}
+
+double PeriodicLoop::norm_at(double frequency, bool complementary) const {
+  MatrixXcd G = response(frequency);
+  if (!complementary) G += unit(samples_);
+  return largest_gain(G).value;
+}
+
+std::vector<AtFrequency> PeriodicLoop::peaks_of(bool complementary) const {
+  std::vector<AtFrequency> found =
+      peaks(of_period_, [&](double w) { return norm_at(w, complementary); });
+  for (AtFrequency& peak : found) {
+    MatrixXcd G = response(peak.frequency);
+    if (!complementary) G += unit(samples_);
+    peak.frequency =
+        std::abs(main_frequency(largest_gain(G).right, peak.frequency * period_, period_));
+  }
+  return found;
+}
+
+void PeriodicLoop::find_peaks(LoopMargins* margins) const {
+  margins->all.sensitivities = peaks_of(false);
+  margins->all.complementaries = peaks_of(true);
+  margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
+  margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
+  const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
+  margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
+  const double level = std::sqrt(0.5) * complementary(margins->rest);
+  if (!std::isfinite(level) || level == 0.0) return;
+  for (std::size_t k = 0; k < grid_.size(); ++k) {
+    if (complementary(grid_[k]) >= level) continue;
+    const double w = zero_between(k == 0 ? 0.0 : grid_[k - 1], grid_[k],
+                                  [&](double at_w) { return complementary(at_w) - level; });
+    margins->bandwidth = AtFrequency{w, w};
+    return;
+  }
+}
+
+LoopMargins PeriodicLoop::margins() const {
+  LoopMargins margins;
+  margins.is_stable = is_stable_;
+  find_gains(&margins);
+  if (!is_stable_) return margins;
+  find_lags(&margins);
+  find_peaks(&margins);
+  return margins;
+}
+
+}  // namespace codesign

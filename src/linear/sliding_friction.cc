@@ -1,0 +1,172 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "linear/sliding_friction.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "elements/joint_load.h"
+#include "equations/formulas.h"
+#include "linear/linear_motion.h"
+#include "math/arrays.h"
+#include "math/dense.h"
+#include "math/differences.h"
+
+namespace codesign {
+namespace {
+
+constexpr double kUnmoved = 1e-12;   // a part of the fastest joint that does not move
+constexpr double kFirstStep = 0.05;  // of the speed, the first step of differences
+
+int joint_of(const System& system, const JointLoad& load) {
+  return system.topology().pairs[to_index(load.pair)].chain[to_index(load.element)].joint;
+}
+
+/// The friction of one coordinate that slides for long, with the forces of a state at rest.
+class SteadyFriction {
+ public:
+  /// @param formulas with a state loaded, which they keep.
+  SteadyFriction(const State<double>& rest, const JointLoad& load, Formulas<double>* formulas)
+      : load_(load), state_(rest), formulas_(formulas) {
+    if (load.has_gear_torque && load.find<GearLoss>())
+      torque_ = gear_torque(formulas->view(), load, 0.0);
+  }
+
+  /// Whether there is any, and all of it has a steady value.
+  bool exists() const {
+    if (!load_.find<BearingFriction>() && !load_.find<DryFriction>() && !load_.find<GearLoss>())
+      return false;
+    for (const bool of_gear : {false, true})
+      if (const BristleContact* bristle = bristle_of(of_gear); bristle && !bristle->model->steady)
+        return false;
+    return true;
+  }
+
+  /// [N or N m], without the viscous friction of a motor, which stays in the model.
+  double at(double rate) {
+    for (const bool of_gear : {false, true})
+      if (const BristleContact* bristle = bristle_of(of_gear)) settle(*bristle, rate);
+    formulas_->load(state_);
+    const StateView<double>& view = formulas_->view();
+    double value = 0.0;
+    if (const auto* bearing = load_.find<BearingFriction>())
+      value += part_load(view, load_, *bearing, rate);
+    if (const auto* dry = load_.find<DryFriction>()) value += part_load(view, load_, *dry, rate);
+    if (!load_.find<GearLoss>()) return value;
+    const GearConstants<double>& c = view.dynamics(load_.pair, load_.element).gear;
+    const double mu = gear_slip(view, load_, rate);
+    value += mu * c.coulomb;
+    return load_.has_gear_torque ? value + gear_loss(torque_, mu, c) : value;
+  }
+
+ private:
+  const BristleContact* bristle_of(bool gear) const {
+    return formulas_->view().system.bristle(load_.pair, load_.element, gear);
+  }
+  void settle(const BristleContact& bristle, double rate) {
+    const StateView<double>& view = formulas_->view();
+    const FrictionConstants<double>& c = bristle_numbers(view, bristle);
+    const bool turning = view.coordinate_constants(load_.pair, load_.element).kind ==
+                         CoordinateConstants<double>::Kind::kTurn;
+    const double arm = turning && !bristle.gear ? c.pin_radius : 1.0;
+    const BristleState<double> steady =
+        bristle.model->steady.of<double>(Vector3<double>(arm * rate, 0.0, 0.0), c);
+    state_.s[bristle.first] = steady.zeta[0];
+    if (bristle.dwells()) state_.s[bristle.dwell_state()] = steady.dwell;
+  }
+
+  const JointLoad& load_;
+  State<double> state_;
+  Formulas<double>* formulas_;
+  double torque_ = 0.0;
+};
+
+/// The velocities of a posture in which the joints move as the study starts them.
+VectorX<double> start_velocities(const LinearCase& of, LinearMotion* motion) {
+  const CompiledSystem& system = motion->system();
+  const Study& study = of.system->whole_study();
+  std::vector<std::pair<CoordinateIndex, double>> given;
+  const std::vector<Pair>& pairs = system.topology().pairs;
+  for (const InitialJointState& initial : study.initial_state)
+    for (std::size_t p = 0; initial.velocity && p < pairs.size(); ++p)
+      for (std::size_t e = 0; e < pairs[p].chain.size(); ++e)
+        if (system.robot().joints[to_index(pairs[p].chain[e].joint)].name == initial.joint)
+          given.push_back(
+              {{static_cast<int>(p), static_cast<int>(e)}, initial.velocity->at(of.parameters)});
+  const Eigen::MatrixXd& Q = motion->coordinates().Q;
+  Eigen::MatrixXd rows(to_signed(given.size()), Q.cols());
+  Eigen::VectorXd speeds(rows.rows());
+  State<double> moving = motion->state();
+  Formulas<double>& formulas = motion->equations().formulas();
+  for (Eigen::Index k = 0; k < Q.cols(); ++k) {
+    moving.v = Q.col(k);
+    formulas.load(moving);
+    for (Eigen::Index row = 0; row < rows.rows(); ++row)
+      rows(row, k) = formulas
+                         .coordinate(given[to_index(row)].first.pair,
+                                     given[to_index(row)].first.element, CoordinateDetail::kRate)
+                         .rate;
+  }
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) speeds[row] = given[to_index(row)].second;
+  if (speeds.size() == 0 || speeds.isZero(0.0))
+    throw InputError({{study.file, 1},
+                      "initial_state",
+                      "friction at a given speed is asked for, and no joint starts with one",
+                      "",
+                      "a velocity of the joints that slide"});
+  return product(Q, least_norm(rows).solve(speeds)).col(0);
+}
+
+/// Takes the friction of a joint away and gives it damping instead.
+void replace_friction(double slope, const std::vector<double>& parameters,
+                      JointDescription* joint) {
+  joint->friction.reset();
+  joint->dry_friction = Quantity(0.0);
+  joint->damping = Quantity(joint->damping.at(parameters) + slope);
+  if (!joint->actuator || !joint->actuator->gear) return;
+  GearDescription& gear = *joint->actuator->gear;
+  gear.efficiency.reset();
+  gear.backdrive_efficiency.reset();
+  gear.coulomb = Quantity(0.0);
+}
+
+RobotDescription with_slopes(const LinearCase& of, const LinearStudy& study,
+                             const State<double>& rest) {
+  const CompiledSystem system(of.system->robot(), study.study, of.system->sharing());
+  LinearMotion motion(system, study);
+  RobotDescription robot = of.system->robot();
+  if (!motion.linearize_at_rest(rest, of.integrals).ok()) return robot;
+  const VectorX<double> v = start_velocities(of, &motion);
+  State<double> moving = motion.state();
+  moving.v = v;
+  Formulas<double>& formulas = motion.equations().formulas();
+  std::vector<double> rates;
+  formulas.load(moving);
+  for (const JointLoad& load : system.loads())
+    rates.push_back(formulas.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate);
+  double fastest = 0.0;
+  for (const double rate : rates) fastest = std::max(fastest, std::abs(rate));
+  for (std::size_t k = 0; k < rates.size(); ++k) {
+    const JointLoad& load = system.loads()[k];
+    formulas.load(motion.state());
+    SteadyFriction friction(motion.state(), load, &formulas);
+    if (!friction.exists() || std::abs(rates[k]) <= kUnmoved * fastest) continue;
+    const double slope = ridders_derivative([&](double rate) { return friction.at(rate); },
+                                            rates[k], kFirstStep * std::abs(rates[k]))
+                             .value;
+    replace_friction(slope, study.parameters, &robot.joints[to_index(joint_of(system, load))]);
+  }
+  return robot;
+}
+
+}  // namespace
+
+RobotDescription counted_robot(const LinearCase& of, const LinearStudy& study,
+                               const State<double>& rest) {
+  if (!of.at_rest || of.question.friction == LinearFriction::kRegularised)
+    return of.system->robot();
+  if (of.question.friction == LinearFriction::kOff) return without_friction(of.system->robot());
+  return with_slopes(of, study, rest);
+}
+
+}  // namespace codesign
