@@ -10,11 +10,11 @@ namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  /// kResidual, kConstraintErrors, kSwitches, and what no other part has: kRates, kAccelerations
-  /// and kLinearization
+  /// kResidual, kConstraintErrors, kSwitches, and what no other part has: kTurns, kEnergies, kRates,
+  /// kAccelerations and kLinearization
   kMotion,
   kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
-  kStart,    ///< kPlacement, kTurns and the controllers' functions
+  kStart,    ///< kPlacement and the controllers' functions
   /// kLinearization, where kRates are recorded without it, CompiledSystem::has_rates_apart()
   kLinearized,
   /// kRates and kAccelerations, where simulations differentiate without a program,
@@ -39,6 +39,7 @@ enum class EquationFunction : std::size_t {
   /// EquationVariant::has_accelerations()
   kAccelerations,
   kEnergies,   ///< body_energies(), their bodies; values only, with a forest
+  kTurns,      ///< the joint positions in State::turns; values only, with cut pairs
   kMotionEnd,  ///< number of functions of the part
 
   kTerminal = 0,       ///< w
@@ -50,7 +51,6 @@ enum class EquationFunction : std::size_t {
   kFirstWatched,
 
   kPlacement = 0,  ///< q and v at the tree coordinates theta and their rates, in place of q and v
-  kTurns,          ///< the joint positions in State::turns
   kStuckSlips,     ///< stuck_slips(): accelerations, limits
   kBristles,       ///< the extra states after begin_bristles()
   /// two functions of each controller: the output and the extra states after its first sample, or

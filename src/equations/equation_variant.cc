@@ -113,6 +113,14 @@ void EquationVariant::record_motion(EquationPart part, ResidualRecording* begun)
       results[0] = body_energies(equations->formulas.view(), &results[1]);
       return results;
     });
+  at(EquationFunction::kTurns).has_derivatives = false;
+  if (part == EquationPart::kMotion && system_.layout().has_cuts())
+    record(EquationFunction::kTurns, [&] {
+      State<Traced> turned = equations->state;
+      equations->formulas.track_turns(&turned);
+      // Without the flags of dropped rows, which no step changes.
+      return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
+    });
   if (part == EquationPart::kMotion && system_.compresses_jacobian()) return;
   const bool rates_only =
       part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
@@ -210,12 +218,6 @@ void EquationVariant::record_start(EquationRecorder* equations) {
   Formulas<Traced>& formulas = equations->formulas;
   const State<Traced>& state = equations->state;
   record(EquationFunction::kPlacement, [&] { return equations->record_placement(); });
-  record(EquationFunction::kTurns, [&] {
-    State<Traced> turned = state;
-    formulas.track_turns(&turned);
-    // Without the flags of dropped rows, which no step changes.
-    return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
-  });
   if (!system_.stuck().empty())
     record(EquationFunction::kStuckSlips, [&] { return equations->record_stuck_slips(); });
   if (system_.begins_bristles())

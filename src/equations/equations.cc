@@ -78,10 +78,8 @@ void Equations<T>::residuals(ObjectivePart part, const State<T>& state, VectorX<
 
 template <class T>
 void Equations<T>::track_turns(State<T>* state) {
-  if constexpr (kIsReal)
-    formulas_->track_turns(state);
-  else
-    start_.track_turns(state);
+  // The coordinates of the forest's pairs count whole turns themselves.
+  if (system_.layout().has_cuts()) compiled_.track_turns(state);
 }
 
 template <class T>

@@ -81,8 +81,6 @@ void Formulas<T>::pair_errors(int pair, const BodyKinematics<T>& i, const BodyKi
 template <class T>
 void Formulas<T>::track_turns(State<T>* state) {
   const Layout& layout = view_.layout;
-  // The coordinates of the forest's pairs count whole turns themselves.
-  if (layout.forest.order.size() == view_.system.topology().pairs.size()) return;
   load(*state);
   for (std::size_t p = 0; p < view_.design.constants.pairs.size(); ++p) {
     if (!layout.is_cut(static_cast<int>(p))) continue;

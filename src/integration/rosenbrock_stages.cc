@@ -19,15 +19,13 @@ void RosenbrockStages<T>::stage_start(std::size_t i) {
   VectorX<T>& u = m_.increments[i];
   RosenbrockTableau::Row factors;
   for (std::size_t j = 0; j < i; ++j) factors[j] = m_.tableau->c[i][j] / m_.h;
-  const auto add = [&](In<T> rate, int first) {
-    combine(rate, In<double>(factors).first(to_signed(i)), m_.increments, first,
-            Out<T>(u).subspan(first, rate.size()));
-  };
-  add(In<T>(stage.z).first(m_.at.n), m_.at.v());
-  add(stage.v, m_.at.x());
-  add(In<T>(stage.z).subspan(m_.at.z_size - m_.at.states, m_.at.states), m_.at.s());
+  const In<double> given = In<double>(factors).first(to_signed(i));
+  u.segment(m_.at.x(), m_.at.n) = stage.v;
+  u.segment(m_.at.s(), m_.at.states) = stage.z.tail(m_.at.states);
+  u.segment(m_.at.v(), m_.at.n) = stage.z.head(m_.at.n);
+  combine(In<T>(u).first(m_.at.z()), given, m_.increments, 0, Out<T>(u).first(m_.at.z()));
   u[m_.at.psi()] = T(0.0);
-  add(In<T>(u).subspan(m_.at.psi(), 1), m_.at.psi());
+  for (std::size_t j = 0; j < i; ++j) u[m_.at.psi()] += factors[j] * m_.increments[j][m_.at.psi()];
   u.segment(m_.at.v(), m_.at.n) *= hg;
   u.segment(m_.at.x(), m_.at.n) =
       hg * (u.segment(m_.at.x(), m_.at.n) + u.segment(m_.at.v(), m_.at.n));

@@ -84,6 +84,10 @@ struct Layout {
   bool is_cut(int pair) const {
     return forest.order.empty() || forest.body_below[to_index(pair)] < 0;
   }
+  /// Whether there are such pairs, or may be: in absolute coordinates all pairs are.
+  bool has_cuts() const {
+    return forest.order.empty() || forest.order.size() < forest.body_below.size();
+  }
   /// The first coordinate of a body in q: of r of a free body, else of the pair on which it hangs.
   int column(int body) const {
     return body_column.empty() ? kBodySize * body : body_column[to_index(body)];

@@ -58,13 +58,19 @@ TEST(EquationVariant, OnlyWhatDependsOnTheDesignComesWithIt) {
 
 TEST(EquationVariant, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   SKIP_WITHOUT_CODE();
-  const std::shared_ptr<const CompiledSystem> still =
-      compile(double_pendulum(), motion_study(1.0, "{}", "elbow/velocity", "{}"));
-  EXPECT_TRUE(still->equation_variant()->numbered(false).turns.empty()) << "no position is read";
+  const auto study = [](const std::string& coordinates) {
+    return motion_study(1.0, "{}", "elbow/velocity", "{coordinates: " + coordinates + "}");
+  };
+  const std::shared_ptr<const CompiledSystem> still = compile(double_pendulum(), study("absolute"));
+  EXPECT_EQ(still->equation_variant()->numbered(false).turns.size(), 2U)
+      << "of both hinges, whose references each step sets";
+  EXPECT_TRUE(compile(double_pendulum(), study("joint"))
+                  ->equation_variant()
+                  ->numbered(false)
+                  .turns.empty())
+      << "coordinates count whole turns themselves";
   EXPECT_TRUE(still->equation_variant()->numbered(false).functions.empty())
       << "constants are no functions of time";
-  EXPECT_EQ(servo("{}")->equation_variant()->numbered(false).turns.size(), 1U)
-      << "the shoulder's position";
   const std::shared_ptr<const CompiledSystem> moved =
       compile(double_pendulum(),
               "duration: 1.0\nobjective: {integral: [{signal: elbow/velocity, reference: {type: "

@@ -227,6 +227,11 @@ void EquationsFixture::expect_exact_residual() {
   EXPECT_LT((G - expected).lpNorm<Eigen::Infinity>(),
             1e-12 * (1.0 + expected.lpNorm<Eigen::Infinity>()));
   EXPECT_NEAR(g, expected_g, 1e-12 * (1.0 + std::abs(expected_g)));
+  State<double> counted = state, by_formulas = state;
+  real.track_turns(&counted);
+  real.formulas().track_turns(&by_formulas);
+  for (int slot = 0; slot < system.layout().drop_slot; ++slot)
+    EXPECT_NEAR(counted.turns[to_index(slot)], by_formulas.turns[to_index(slot)], 1e-12);
 }
 
 }  // namespace codesign
