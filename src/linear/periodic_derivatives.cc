@@ -1,7 +1,9 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "linear/periodic_derivatives.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "linear/periodic_loop.h"
 #include "math/linear_systems.h"
@@ -86,10 +88,11 @@ struct Crossing {
 
 Crossing crossing_at(const Period& loop, Complex factor, double frequency) {
   const Complex z = loop.turn(frequency);
-  const EigenTriple* nearest = nullptr;
   const std::vector<EigenTriple> poles = complex_eigen(loop.open().closed_by(factor));
-  for (const EigenTriple& pole : poles)
-    if (!nearest || std::abs(pole.value - z) < std::abs(nearest->value - z)) nearest = &pole;
+  const auto nearest = std::min_element(
+      poles.begin(), poles.end(), [&z](const EigenTriple& one, const EigenTriple& other) {
+        return std::abs(one.value - z) < std::abs(other.value - z);
+      });
   const auto moved = [&](const MatrixXcd& by) {
     return product(nearest->left.transpose(), product(by, nearest->right))(0, 0) / nearest->value;
   };

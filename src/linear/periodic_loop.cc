@@ -37,8 +37,21 @@ OpenedPeriod::OpenedPeriod(const Eigen::MatrixXd& closed_A, const Eigen::MatrixX
   B = closed_B * E;
 }
 
+namespace {
+
+/// (I - k D)^-1 b: D is strictly lower triangular.
+MatrixXcd solved(const Eigen::MatrixXd& D, Complex factor, const MatrixXcd& b) {
+  MatrixXcd x = b;
+  for (Eigen::Index row = 1; row < D.rows(); ++row)
+    for (Eigen::Index column = 0; column < row; ++column)
+      if (D(row, column) != 0.0) x.row(row) += (factor * D(row, column)) * x.row(column);
+  return x;
+}
+
+}  // namespace
+
 MatrixXcd OpenedPeriod::outputs(Complex factor) const {
-  return complex_solution(unit(D.rows()) - factor * D.cast<Complex>(), C.cast<Complex>());
+  return solved(D, factor, C.cast<Complex>());
 }
 
 MatrixXcd OpenedPeriod::closed_by(Complex factor) const {
@@ -47,8 +60,7 @@ MatrixXcd OpenedPeriod::closed_by(Complex factor) const {
 
 // With F = (I - k D)^-1: d(k F)/dk = F F.
 MatrixXcd OpenedPeriod::by_factor(Complex factor) const {
-  return product(B.cast<Complex>(),
-                 complex_solution(unit(D.rows()) - factor * D.cast<Complex>(), outputs(factor)));
+  return product(B.cast<Complex>(), solved(D, factor, outputs(factor)));
 }
 
 Eigen::VectorXcd sinusoid(double frequency, Eigen::Index samples, double period) {
@@ -86,27 +98,44 @@ PeriodicLoop::PeriodicLoop(const StateSpace& closed)
   of_period_ = frequencies_about(poles, opened, period_);
 }
 
-MatrixXcd PeriodicLoop::response(double frequency) const {
-  const Complex z = std::polar(1.0, frequency * period_);
-  const MatrixXcd x = complex_solution(z * unit(closed_.A.rows()) - closed_.A.cast<Complex>(),
-                                       closed_.B.cast<Complex>());
-  return product(closed_.C.cast<Complex>(), x) + closed_.D.cast<Complex>();
-}
+namespace {
+
+/// A loop at one frequency: what becomes of values at the samples of a period.
+class AtSamples {
+ public:
+  AtSamples(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::MatrixXd& C,
+            const Eigen::MatrixXd& D, Complex z)
+      : D_(D.cast<Complex>()) {
+    const MatrixXcd M = z * unit(A.rows()) - A.cast<Complex>();
+    in_ = complex_solution(M, B.cast<Complex>());
+    out_ = C.cast<Complex>();
+  }
+  /// (H + direct) w, and its adjoint.
+  MatrixXcd of(const MatrixXcd& w, double direct) const {
+    return product(out_, product(in_, w)) + product(D_, w) + direct * w;
+  }
+  MatrixXcd adjoint_of(const MatrixXcd& y, double direct) const {
+    return product(in_.adjoint(), product(out_.adjoint(), y)) + product(D_.adjoint(), y) +
+           direct * y;
+  }
+
+ private:
+  MatrixXcd in_, out_, D_;
+};
+
+}  // namespace
 
 Complex PeriodicLoop::closed_at(double frequency) const {
-  const Eigen::VectorXcd e = sinusoid(frequency, samples_, period_);
-  return e.dot(product(response(frequency), e).col(0)) / static_cast<double>(samples_);
+  const MatrixXcd e = sinusoid(frequency, samples_, period_);
+  const AtSamples H(closed_.A, closed_.B, closed_.C, closed_.D,
+                    std::polar(1.0, frequency * period_));
+  return e.col(0).dot(H.of(e, 0.0).col(0)) / static_cast<double>(samples_);
 }
 
 Complex PeriodicLoop::at(double frequency) const {
   const MatrixXcd e = sinusoid(frequency, samples_, period_);
-  const MatrixXcd B = open_.B.cast<Complex>(), C = open_.C.cast<Complex>(),
-                  D = open_.D.cast<Complex>();
-  const Complex z = std::polar(1.0, frequency * period_);
-  const MatrixXcd x =
-      complex_solution(z * unit(open_.A.rows()) - open_.A.cast<Complex>(), product(B, e));
-  const MatrixXcd y = product(C, x) + product(D, e);
-  return -e.col(0).dot(y.col(0)) / static_cast<double>(samples_);
+  const AtSamples L(open_.A, open_.B, open_.C, open_.D, std::polar(1.0, frequency * period_));
+  return -e.col(0).dot(L.of(e, 0.0).col(0)) / static_cast<double>(samples_);
 }
 
 namespace {
@@ -216,20 +245,40 @@ void PeriodicLoop::find_lags(LoopMargins* margins) const {
   margins->delay_margin = sort_margins(&margins->all.delays, std::less<>());
 }
 
-double PeriodicLoop::norm_at(double frequency, bool complementary) const {
-  MatrixXcd G = response(frequency);
-  if (!complementary) G += unit(samples_);
-  return largest_gain(G).value;
+/// The largest singular value of I + H, or H, by power iteration from that of the frequency before;
+/// a part of all directions keeps it from one that has become the second one.
+double PeriodicLoop::norm_at(double frequency, bool complementary, Eigen::VectorXcd* right) const {
+  constexpr int kMostIterations = 60, kSettled = 3;
+  constexpr double kPart = 1e-3, kChange = 1e-14;
+  const AtSamples H(closed_.A, closed_.B, closed_.C, closed_.D,
+                    std::polar(1.0, frequency * period_));
+  const double direct = complementary ? 0.0 : 1.0;
+  MatrixXcd v(samples_, 1);
+  for (Eigen::Index k = 0; k < samples_; ++k) {
+    const Complex other = std::polar(1.0, 1.0 + 2.3 * static_cast<double>(k * k % 17));
+    v(k, 0) = right->size() == samples_ ? (*right)[k] + kPart * other : other;
+  }
+  double norm = 0.0;
+  for (int k = 0, settled = 0; k < kMostIterations && settled < kSettled; ++k) {
+    v /= v.norm();
+    const MatrixXcd y = H.of(v, direct);
+    const double next = y.norm();
+    settled = std::abs(next - norm) <= kChange * next ? settled + 1 : 0;
+    norm = next;
+    if (!(norm > 0.0 && std::isfinite(norm))) break;
+    *right = v.col(0);
+    v = H.adjoint_of(y, direct);
+  }
+  return norm;
 }
 
 std::vector<AtFrequency> PeriodicLoop::peaks_of(bool complementary) const {
+  Eigen::VectorXcd right;
   std::vector<AtFrequency> found =
-      peaks(of_period_, [&](double w) { return norm_at(w, complementary); });
+      peaks(of_period_, [&](double w) { return norm_at(w, complementary, &right); });
   for (AtFrequency& peak : found) {
-    MatrixXcd G = response(peak.frequency);
-    if (!complementary) G += unit(samples_);
-    peak.frequency =
-        std::abs(main_frequency(largest_gain(G).right, peak.frequency * period_, period_));
+    norm_at(peak.frequency, complementary, &right);
+    peak.frequency = std::abs(main_frequency(right, peak.frequency * period_, period_));
   }
   return found;
 }

@@ -64,8 +64,7 @@ class PeriodicLoop {
   Crossing crossing_between(Along along, double low, double high) const;
   std::vector<Crossing> crossings(Along along, double first, double last, int steps) const;
   std::complex<double> closed_at(double frequency) const;
-  Eigen::MatrixXcd response(double frequency) const;
-  double norm_at(double frequency, bool complementary) const;
+  double norm_at(double frequency, bool complementary, Eigen::VectorXcd* right) const;
   std::vector<AtFrequency> peaks_of(bool complementary) const;
   void find_gains(LoopMargins* margins) const;
   void find_lags(LoopMargins* margins) const;

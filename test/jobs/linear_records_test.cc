@@ -18,10 +18,11 @@ LinearModel example() {
   model.modes.push_back({pole, {1.0}});
   ControllerLoop loop;
   loop.controller = "servo";
+  loop.samples = 4;
   loop.margins.gain_margin = AtFrequency{3.0, 1.5};
   loop.frequencies = {1.0};
   loop.response = {{-0.5, 0.25}};
-  model.loops = {loop, {"other", "no reason", {}, {}, {}}};
+  model.loops = {loop, {"other", "no reason", 1, {}, {}, {}}};
   return model;
 }
 
@@ -42,6 +43,7 @@ TEST(LinearRecords, OfLoops) {
   const Json loops = loops_json(example());
   EXPECT_EQ(loops["servo"]["gain_margin"], (Json{{"value", 3.0}, {"frequency", 1.5}}));
   EXPECT_FALSE(loops["servo"].contains("delay_margin"));
+  EXPECT_EQ(loops["servo"]["samples"], 4);
   EXPECT_EQ(loops["servo"]["response"]["imaginary"], Json::array({0.25}));
   EXPECT_EQ(loops["other"], (Json{{"why_not", "no reason"}}));
 }
