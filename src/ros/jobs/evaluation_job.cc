@@ -6,7 +6,6 @@
 #include "ensemble/other_steps.h"
 #include "ensemble/parameter_rows.h"
 #include "jobs/result_fields.h"
-#include "mechanism_codesign/error.h"
 #include "mechanism_codesign/gradient.h"
 #include "optimization/smooth_program.h"
 #include "problem/load_problem.h"
@@ -79,13 +78,8 @@ mechanism_codesign::EvaluateResponse run_evaluation(
     const Problem& problem, const mechanism_codesign::EvaluateRequest& request,
     const std::atomic<bool>& cancel, Dispatcher* ranks) {
   mechanism_codesign::EvaluateResponse reply;
-  try {
-    compute(problem, request, ranks, cancel, &reply);
-  } catch (const InputError& error) {
-    refuse("bad_input", error.what(), &reply);
-  } catch (const std::exception& error) {
-    refuse("internal_error", error.what(), &reply);
-  }
+  const auto failure = failure_of([&] { compute(problem, request, ranks, cancel, &reply); });
+  if (failure) refuse(failure->code, failure->message, &reply);
   return reply;
 }
 

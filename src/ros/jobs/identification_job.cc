@@ -13,9 +13,7 @@
 #include "jobs/identification_records.h"
 #include "jobs/job_files.h"
 #include "jobs/trial_lines.h"
-#include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
-#include "ros/bags/bag_contents.h"
 #include "ros/bags/bag_files.h"
 #include "ros/bags/job_bag.h"
 #include "ros/jobs/messages.h"
@@ -147,19 +145,12 @@ IdentificationOutcome run_identification(const Problem& problem, const std::stri
                                          const IdentificationObserver& observer,
                                          const std::atomic<bool>& cancel) {
   IdentificationOutcome outcome;
-  try {
+  const auto failure = failure_of([&] {
     IdentificationJob job(apply_request(problem, request), options, observer, &outcome);
     job.fit(folder, cancel);
     job.write(request, cancel);
-  } catch (const InputError& error) {
-    refuse("bad_input", error.what(), &outcome.result);
-  } catch (const ReadingCancelled& error) {
-    refuse("cancelled", error.what(), &outcome.result);
-  } catch (const OutputError& error) {
-    refuse("output_failed", error.what(), &outcome.result);
-  } catch (const std::exception& error) {
-    refuse("internal_error", error.what(), &outcome.result);
-  }
+  });
+  if (failure) refuse(failure->code, failure->message, &outcome.result);
   return outcome;
 }
 

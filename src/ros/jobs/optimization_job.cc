@@ -17,7 +17,6 @@
 #include "jobs/result_folder.h"
 #include "jobs/trial_lines.h"
 #include "math/arrays.h"
-#include "mechanism_codesign/error.h"
 #include "mechanism_codesign/optimization.h"
 #include "optimization/result_report.h"
 #include "optimization/search_hooks.h"
@@ -236,19 +235,12 @@ OptimizationOutcome run_optimization(const Problem& problem, const std::string& 
   for (const LoadedFile& one : contents_of(problem).files)
     record.study_files.push_back(one.source.text);
   OptimizationOutcome outcome;
-  try {
+  const auto failure = failure_of([&] {
     Job job(apply_request(problem, request), request.resume, options, &record, &outcome);
     job.optimize(observer, cancel);
     job.record(cancel);
-  } catch (const InputError& error) {
-    refuse("bad_input", error.what(), &outcome.result);
-  } catch (const JobIsRunning& error) {
-    refuse("busy", error.what(), &outcome.result);
-  } catch (const OutputError& error) {
-    refuse("output_failed", error.what(), &outcome.result);
-  } catch (const std::exception& error) {
-    refuse("internal_error", error.what(), &outcome.result);
-  }
+  });
+  if (failure) refuse(failure->code, failure->message, &outcome.result);
   return outcome;
 }
 

@@ -8,8 +8,11 @@
 #include "description/study.h"
 #include "description/tuned_parameters.h"
 #include "identification/identify.h"
+#include "jobs/job_files.h"
 #include "math/arrays.h"
+#include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
+#include "ros/bags/bag_contents.h"
 #include "ros/common/parameters.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
@@ -151,6 +154,23 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
   choose_limits(request, &study.optimizer);
   const ParameterSettings starts = choose_parameters(request, &study);
   return with_study(problem, std::move(study), starts);
+}
+
+std::optional<Failure> failure_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return Failure{"bad_input", error.what()};
+  } catch (const JobIsRunning& error) {
+    return Failure{"busy", error.what()};
+  } catch (const ReadingCancelled& error) {
+    return Failure{"cancelled", error.what()};
+  } catch (const OutputError& error) {
+    return Failure{"output_failed", error.what()};
+  } catch (const std::exception& error) {
+    return Failure{"internal_error", error.what()};
+  }
+  return std::nullopt;
 }
 
 Eigen::VectorXd design_of(const Problem& problem,

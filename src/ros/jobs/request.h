@@ -6,9 +6,12 @@
 #include <mechanism_codesign/OptimizeGoal.h>
 
 #include <Eigen/Core>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "jobs/files.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -42,6 +45,11 @@ Problem apply_request(const Problem& problem, const mechanism_codesign::Identify
 /// @throws InputError naming the field of the request, or if the study has no objective.
 Eigen::VectorXd design_of(const Problem& problem,
                           const mechanism_codesign::EvaluateRequest& request);
+
+/// Does the work of a request. What it throws becomes code and sentence of the reply: `bad_input`,
+/// `busy` where another process has the job, `cancelled` while a bag was read, `output_failed`, and
+/// `internal_error` for anything else.
+std::optional<Failure> failure_of(const std::function<void()>& work);
 
 /// The path of a job that a request names: a bare name, or a path below `directory`. @throws
 /// InputError for a path outside of `directory`.

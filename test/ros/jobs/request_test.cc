@@ -6,8 +6,11 @@
 #include <functional>
 
 #include "description/study.h"
+#include "jobs/files.h"
+#include "jobs/job_files.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
+#include "ros/bags/bag_contents.h"
 #include "ros/pendulum.h"
 #include "temporary_directory.h"
 
@@ -170,6 +173,23 @@ TEST(PathOfAJob, LiesInTheOutputDirectory) {
   for (const std::string& outside : {std::string("../arm_1"), std::string("/etc/passwd"), folder,
                                      folder + "_other/arm_1", std::string(".")})
     EXPECT_THROW(path_in(folder, outside), InputError) << outside;
+}
+
+TEST(ARequest, FailsWithTheCodeOfWhatIsThrown) {
+  const auto code_of = [](const std::function<void()>& work) {
+    const auto failure = failure_of(work);
+    return failure ? failure->code + ": " + failure->message : "";
+  };
+  EXPECT_EQ(code_of([] {}), "");
+  EXPECT_EQ(code_of([] { throw OutputError("a", "full"); }),
+            "output_failed: a: cannot be written: full");
+  EXPECT_EQ(code_of([] { throw JobIsRunning("there"); }), "busy: there");
+  EXPECT_EQ(code_of([] { throw ReadingCancelled(); }), "cancelled: cancelled");
+  EXPECT_EQ(code_of([] { throw std::logic_error("odd"); }), "internal_error: odd");
+  EXPECT_EQ(code_of([] {
+              throw InputError({{"request", 0}, "check", "no", "", ""});
+            }).find("bad_input: "),
+            0U);
 }
 
 }  // namespace
