@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "control/controller.h"
 #include "forces/pade.h"
 #include "linear/linear_motion.h"
 #include "linear/periodic_loop.h"

@@ -5,12 +5,14 @@
 #include <cmath>
 #include <utility>
 
+#include "description/study.h"
 #include "elements/joint_load.h"
 #include "equations/formulas.h"
 #include "linear/linear_motion.h"
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "math/differences.h"
+#include "mechanism_codesign/error.h"
 
 namespace codesign {
 namespace {

@@ -117,6 +117,20 @@ class Loops(unittest.TestCase):
             growth = math.log(np.abs(np.linalg.eigvals(period(part * gain))).max()) / 0.15
             self.assertAlmostEqual(problem.linearize(p=8.0 * part * gain).modes[0]["growth"], growth, delta=1e-9)
 
+    def test_a_slow_axis_hunts_where_friction_falls_with_speed(self):
+        """At 0.05 m/s Stribeck's curve falls: the verdict at that speed agrees with runs, of which one slides evenly and the other sticks and slips."""
+        model = CART.replace('<dynamics damping="1"/>', '<codesign:friction model="stribeck" coulomb="2" static="3" stribeck_velocity="0.1" transition_velocity="0.001" viscous="1"/>')
+        study = ("duration: 40.0\ninitial_state: {slide: {position: 0.0, velocity: 0.05}}\nparameters: {d: {initial: 5.0, lower: 1.0, upper: 50.0}}\n"
+                 "objective: {terminal: [{signal: slide/position}]}\ncontrollers: {servo: {type: pid, input: slide/position, output: slide, "
+                 "gains: {p: 100.0, i: 50.0, d: \"${d}\"}, setpoint: {type: waypoints, times: [0.0, 40.0], positions: [0.0, 2.0], velocities: [0.05, 0.05]}}}\n")
+        problem = codesign.Problem(model, study)
+        for d, stable in ((5.0, False), (20.0, True)):
+            small = problem.linearize(d=d, friction="given_speed")
+            self.assertEqual(small.stability, "stable" if stable else "unstable")
+            self.assertIn("friction at the given speed counted", small.verdict)
+            speed = problem.simulate(signals=["slide/velocity"], samples=4001, d=d)["slide/velocity"][-1000:]
+            self.assertEqual(speed.max() - speed.min() < 1e-5, stable)
+
 
 if __name__ == "__main__":
     unittest.main()
