@@ -73,7 +73,7 @@ class KeyFinder {
       if (const ContactKey* const key = find_key(kElements, child.tag())) {
         const char* const text = child.node()->GetText();
         take(*key, child.find("value").value_or(text != nullptr ? text : ""));
-      } else {
+      } else if (child.tag() != "plugin" && child.tag() != "sensor") {
         visit(child);
       }
     }
@@ -146,8 +146,13 @@ Warnings find_foreign_contacts(const XmlElement& robot, const RobotDescription& 
     for (const XmlElement& contact : link.children("contact")) look(contact, name);
     for (const XmlElement& collision : link.children("collision")) look(collision, name);
   }
+  const auto is_link = [&](const std::string& name) {
+    return std::any_of(description.links.begin(), description.links.end(),
+                       [&name](const LinkDescription& link) { return link.name == name; });
+  };
   for (const XmlElement& gazebo : robot.children("gazebo"))
-    look(gazebo, gazebo.find("reference").value_or("..."));
+    if (const std::string name = gazebo.find("reference").value_or(""); is_link(name))
+      look(gazebo, name);
   for (const XmlElement& mujoco : robot.children("mujoco")) look(mujoco, "...");
   return warnings;
 }
