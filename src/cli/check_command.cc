@@ -15,13 +15,12 @@
 #include "mechanism/machine_numbers.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
-#include "reading/urdf/joint_reader.h"
+#include "reading/urdf/foreign_contacts.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/starting_overlay.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/number_text.h"
 #include "text/table.h"
-#include "text/told_once.h"
 
 namespace codesign::cli {
 namespace {
@@ -90,8 +89,7 @@ StartReport look_at_start(const Problem& problem, const std::vector<double>& par
   append(simulation.warnings(), warnings);
   simulation.sample(0.0, &frame);
   watch.observe(frame);
-  return {watch.crossings(),
-          find_near_links(problem, parameters, simulation.names().links, frame)};
+  return {watch.crossings(), find_near_links(problem, parameters, simulation.names().links, frame)};
 }
 
 void print_near(const std::vector<NearLinks>& near, std::ostream& out) {
@@ -118,14 +116,6 @@ Json near_json(const std::vector<NearLinks>& near) {
   return list;
 }
 
-/// Keys of contact of other tools, in the model with its overlays.
-Warnings foreign_contacts(const Problem& problem) {
-  const XmlDocument document =
-      load_annotated_urdf(problem.urdf(), problem.overlays(), robot_of(problem).laws);
-  return told_once(
-      find_foreign_contacts(XmlElement(document.robot(), &document), robot_of(problem)));
-}
-
 }  // namespace
 
 int check(const Arguments& arguments, const Console& console) {
@@ -135,7 +125,7 @@ int check(const Arguments& arguments, const Console& console) {
   const Counts counts = count_equations(*system_of(problem), parameters, &status);
   Warnings warnings;
   const StartReport start = look_at_start(problem, parameters, &warnings);
-  append(foreign_contacts(problem), &warnings);
+  append(find_foreign_contacts(problem.urdf(), problem.overlays(), robot_of(problem)), &warnings);
   const std::vector<MachineNumber> numbers = machine_numbers_of(problem, parameters);
   const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &warnings);
   if (status.ok())

@@ -1,12 +1,16 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/foreign_contacts.h"
+
 #include <algorithm>
 #include <set>
 #include <string>
 
 #include "math/arrays.h"
-#include "reading/urdf/joint_reader.h"
+#include "reading/urdf/urdf_reader.h"
+#include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
+#include "text/told_once.h"
 
 namespace codesign {
 namespace {
@@ -129,7 +133,10 @@ bool touches(const RobotDescription& robot, const std::string& link) {
 
 }  // namespace
 
-Warnings find_foreign_contacts(const XmlElement& robot, const RobotDescription& description) {
+Warnings find_foreign_contacts(const SourceText& urdf, const std::vector<SourceText>& overlays,
+                               const RobotDescription& description) {
+  const XmlDocument document = load_annotated_urdf(urdf, overlays, description.laws);
+  const XmlElement robot(document.robot(), &document);
   Warnings warnings;
   const auto look = [&](const XmlElement& element, const std::string& link) {
     KeyFinder keys;
@@ -154,7 +161,7 @@ Warnings find_foreign_contacts(const XmlElement& robot, const RobotDescription& 
     if (const std::string name = gazebo.find("reference").value_or(""); is_link(name))
       look(gazebo, name);
   for (const XmlElement& mujoco : robot.children("mujoco")) look(mujoco, "...");
-  return warnings;
+  return told_once(warnings);
 }
 
 }  // namespace codesign

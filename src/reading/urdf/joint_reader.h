@@ -95,11 +95,6 @@ void read_constraints(const XmlElement& robot, const ReadContext& context,
 /// Whether a loop of the description connects two links, named in either order.
 bool has_loop_between(const RobotDescription& robot, const std::string& a, const std::string& b);
 
-/// Warnings (`contact_not_read`) of keys by which other tools let links touch: `<gazebo>` with kp,
-/// kd, mu1, SDF's `<surface>`, Bullet's `<contact>`, `drake:proximity_properties`, MuJoCo's solref
-/// and solimp. Each shows the contact to write. None of a link that touches here already.
-Warnings find_foreign_contacts(const XmlElement& robot, const RobotDescription& description);
-
 /// Warns (`loop_ignored`) of elements that close loops or couple joints in other tools and are not
 /// read here: `<loop_joint>`,
 /// `<gazebo><joint>`, mimic and DetachableJoint plugins, `drake:*_constraint`, `drake:joint`,

@@ -1,15 +1,15 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include "reading/urdf/foreign_contacts.h"
+
 #include <gtest/gtest.h>
 
-#include "reading/urdf/joint_reader.h"
 #include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {
 
 Warnings found(const std::string& content) {
-  const XmlDocument document = load_annotated_urdf(robot_text(content), {}, standard_laws());
-  return find_foreign_contacts(XmlElement(document.robot(), &document), read_robot(document));
+  return find_foreign_contacts(robot_text(content), {}, read_urdf(robot_text(content)));
 }
 
 std::string arm(const std::string& inside) {
