@@ -150,12 +150,14 @@ TEST(Clearance, ABlockRestsInItsGuide) {
   EXPECT_NEAR(flat[0], -5e-4 - depth, 1e-7);
   EXPECT_NEAR(flat[1], 0.0, 1e-9);
   EXPECT_NEAR(flat[2], kGravity, 1e-2);
-  // The corners at -0.05 and 0.05 m carry -0.3 and 1.3 of the weight of a centre at 0.08 m.
+  // The upper corner behind and the lower one in front carry it: lever 0.08 m over their distance.
   const std::vector<double> tilted = at(problem_of(block("0.08"), "duration: 0.4\n"), 0.4, signals);
   const double up = std::pow(0.3 * kGravity / 2.0 / 1e7, 2.0 / 3.0),
-               down = std::pow(1.3 * kGravity / 2.0 / 1e7, 2.0 / 3.0);
-  EXPECT_NEAR(tilted[2], 1.6 * kGravity, 0.05);
-  EXPECT_NEAR(std::abs(tilted[1]), (1e-3 + up + down) / 0.1, 5e-5);
+               down = std::pow(1.3 * kGravity / 2.0 / 1e7, 2.0 / 3.0), turn = std::abs(tilted[1]);
+  EXPECT_NEAR(turn, (1e-3 + up + down) / 0.1, 5e-5);
+  EXPECT_NEAR(tilted[2],
+              kGravity * 0.16 * std::cos(turn) / (0.1 * std::cos(turn) - 0.04 * std::sin(turn)),
+              1e-2);
 }
 
 TEST(Clearance, TakesExactlyItsWork) {

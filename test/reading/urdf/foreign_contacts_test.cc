@@ -36,7 +36,7 @@ TEST(ForeignContacts, OfEachToolShowTheContactToWrite) {
   expect_says(arm("") +
                   "<gazebo reference='arm'><kp>1e6</kp><kd>1</kd><mu1>0.8</mu1><mu2>0.7"
                   "</mu2></gazebo>",
-              {"kd, kp, mu1, mu2", "<codesign:contact name=\"...\" stiffness=\"1000000\"",
+              {"kd, kp, mu1, mu2", "<codesign:contact name=\"...\" stiffness=\"1e+06\"",
                "link=\"arm\"", "mu_static=\"0.8\" mu_dynamic=\"...\""});
   expect_says(arm("<collision><geometry><sphere radius='1'/></geometry><surface><contact><ode><kp>"
                   "2000</kp></ode></contact><bounce><restitution_coefficient>0.5"
