@@ -211,9 +211,12 @@ std::vector<std::string> annotation_elements() {
 
 std::vector<std::string> places_of(const std::string& annotation) {
   std::vector<std::string> places;
-  for (const ElementRule& rule : rules())
-    if (std::find(rule.children.begin(), rule.children.end(), annotation) != rule.children.end())
-      places.push_back("<" + rule.path.substr(rule.path.rfind('/') + 1) + ">");
+  for (const ElementRule& rule : rules()) {
+    const std::string place = "<" + rule.path.substr(rule.path.rfind('/') + 1) + ">";
+    if (std::find(rule.children.begin(), rule.children.end(), annotation) != rule.children.end() &&
+        std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(place);
+  }
   return places;
 }
 

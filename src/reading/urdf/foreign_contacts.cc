@@ -10,7 +10,6 @@
 #include "reading/xml/xml_element.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
-#include "text/told_once.h"
 
 namespace codesign {
 namespace {
@@ -59,6 +58,10 @@ constexpr ContactKey kAttributes[] = {
     {"mu", "mu_static"}, {"kp", "stiffness"}, {"kd", "dissipation"},     {"solref", nullptr},
     {"solimp", nullptr}, {"condim", nullptr}, {"friction", "mu_static"}, {"solmix", nullptr},
 };
+
+constexpr const char* kMessage =
+    "contact keys of other tools have no effect here, where links touch only by "
+    "<codesign:contact>";
 
 template <std::size_t N>
 const ContactKey* find_key(const ContactKey (&keys)[N], const std::string& name) {
@@ -138,15 +141,14 @@ Warnings find_foreign_contacts(const SourceText& urdf, const std::vector<SourceT
   const XmlDocument document = load_annotated_urdf(urdf, overlays, description.laws);
   const XmlElement robot(document.robot(), &document);
   Warnings warnings;
+  int links = 0;
   const auto look = [&](const XmlElement& element, const std::string& link) {
     KeyFinder keys;
     keys.visit(element);
     if (keys.is_empty() || touches(description, link)) return;
-    warnings.push_back(element.warning(
-        "contact_not_read",
-        "contact keys of other tools have no effect here, where links touch only by "
-        "<codesign:contact>",
-        keys.names(), "write, in an overlay, " + suggestion(link, keys)));
+    if (++links > 1) return;
+    warnings.push_back(element.warning("contact_not_read", kMessage, keys.names(),
+                                       "write, in an overlay, " + suggestion(link, keys)));
   };
   for (const XmlElement& link : robot.children("link")) {
     const std::string name = link.find("name").value_or("...");
@@ -161,7 +163,9 @@ Warnings find_foreign_contacts(const SourceText& urdf, const std::vector<SourceT
     if (const std::string name = gazebo.find("reference").value_or(""); is_link(name))
       look(gazebo, name);
   for (const XmlElement& mujoco : robot.children("mujoco")) look(mujoco, "...");
-  return told_once(warnings);
+  if (links > 1)
+    warnings.front().message += "; " + std::to_string(links) + " places have such keys";
+  return warnings;
 }
 
 }  // namespace codesign

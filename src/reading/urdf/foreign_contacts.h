@@ -10,7 +10,8 @@ namespace codesign {
 
 /// Warnings (`contact_not_read`) of keys by which other tools let links touch: `<gazebo>` with kp,
 /// kd, mu1, SDF's `<surface>`, Bullet's `<contact>`, `drake:proximity_properties`, MuJoCo's solref
-/// and solimp. Each shows the contact to write. None of a link that touches here already.
+/// and solimp: one at most, which shows the contact to write of the first link and counts the
+/// others. None of links that touch here already.
 /// @param robot what read_urdf() makes of the texts. @throws InputError as read_urdf().
 Warnings find_foreign_contacts(const SourceText& urdf, const std::vector<SourceText>& overlays,
                                const RobotDescription& robot);

@@ -50,6 +50,12 @@ TEST(ForeignContacts, OfEachToolShowTheContactToWrite) {
               {"friction, solref", "mu_static=\"0.9\""});
 }
 
+TEST(ForeignContacts, OfSeveralLinksAreCounted) {
+  expect_says(arm("<contact><stiffness value='500'/></contact>") +
+                  "<gazebo reference='ground'><mu1>0.8</mu1></gazebo>",
+              {"stiffness=\"500\"", "2 places have such keys"});
+}
+
 TEST(ForeignContacts, KeysOfJointsAndPluginsAreNoContacts) {
   EXPECT_TRUE(found(arm("") + "<gazebo reference='free'><kp>1e6</kp></gazebo><gazebo "
                               "reference='arm'><plugin name='p'><kp>3</kp></plugin></gazebo>")
