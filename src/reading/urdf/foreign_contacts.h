@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "description/robot.h"
-#include "mechanism_codesign/problem.h"
+#include "mechanism_codesign/source_text.h"
 
 namespace codesign {
 
