@@ -26,6 +26,7 @@ class ClearanceReader {
     radial_ = radial;
     axes_.axis = joint->axis;
     take_friction(joint);
+    refuse_rotor(*joint);
     if (joint->is_slide())
       guide(joint);
     else
@@ -46,6 +47,14 @@ class ClearanceReader {
                         "<codesign:friction> in <codesign:clearance>; that of the joint is for "
                         "radial=\"0\""});
     joint->friction.reset();
+  }
+
+  /// The link without mass above the joint cannot carry a rotor.
+  static void refuse_rotor(const JointDescription& joint) {
+    if (!joint.actuator || joint.actuator->rotor_inertia.is_zero()) return;
+    throw InputError({joint.actuator->where, joint.element() + " <codesign:actuator>",
+                      "a joint with clearance has no link that carries a rotor", "",
+                      "armature in place of rotor_inertia; or the rotor as a link of its own"});
   }
 
   /// Journal and bearing, or ball and socket.
