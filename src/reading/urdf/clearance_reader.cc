@@ -19,8 +19,8 @@ QuantityVector constant(const Vector3<double>& x) { return {x[0], x[1], x[2]}; }
 /// parent becomes a link without mass, which joints of the tree let move against the former one.
 class ClearanceReader {
  public:
-  ClearanceReader(XmlElement element, const ReadContext& context, RobotDescription* robot)
-      : element_(std::move(element)), context_(context), robot_(*robot) {}
+  ClearanceReader(const XmlElement& element, const ReadContext& context, RobotDescription* robot)
+      : element_(element), context_(context), robot_(*robot) {}
 
   void read(const Quantity& radial, JointDescription* joint) {
     radial_ = radial;
