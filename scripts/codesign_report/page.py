@@ -109,7 +109,7 @@ def context(job, scale):
         "wanted": job.in_postures and bool(asked.numbers_asked(job.study)), "objective_title": signals.GROUPS[0][0], "convergence": results.convergence(job), "failed_trials": len(results.failed_trials(job)),
         "friction_rows": friction_rows, "friction_chart": friction_chart, "energies": results.energies(job),
         "signal_rows": signal_rows, "zeros": zeros, "signal_groups": signals.signal_groups(job, scale),
-        "events": signals.events(job),
+        "contacts": signals.contacts(job), "events": signals.events(job),
         "waterfall": results.waterfall(job), "samples": results.samples(job),
         "identified": identified, "interval_percent": numbers.short(100.0 * interval_scale, 3), "correlations": results.correlations(job), "residuals": results.residuals(job),
         "commands": commands(job),

@@ -10,6 +10,7 @@ GROUPS = (
     ("Objective and bounds", "what the objective and the constraints read"),
     ("Controllers", "errors, efforts and whatever else the study reads"),
     ("Friction", "friction, normal force, sliding velocity and power of each joint with friction; loss and torque of gears"),
+    ("Contacts", "gap, negative by the penetration, forces and slip"),
     ("Motion", "positions and velocities"),
     ("Powers of the mechanism", "negative where energy leaves the mechanism"),
     ("Further signals", ""),
@@ -18,17 +19,20 @@ CAPACITY = 1_100_000  # bytes of all curves, so that the page stays below two me
 MOST_CHARTS = 300
 
 
-def group_of(name, asked_for, used):
+def group_of(name, asked_for, used, touching=()):
+    """The number of the group of a signal. @param touching names of contacts."""
     quantity = name.rsplit("/", 1)[-1]
     if name in asked_for:
         return 0
     if name.startswith("mechanism/"):
-        return 4
+        return 5
+    if quantity in ("gap", "gap_rate", "sliding_speed") or name.rpartition("/")[0] in touching:
+        return 3
     if quantity in ("friction", "normal_force", "sliding_velocity", "friction_power", "gear_torque", "gear_loss", "gear_deflection"):
         return 2
     if name in used or quantity in ("error", "output", "effort", "integral", "current", "voltage"):
         return 1
-    return 3 if quantity in ("position", "velocity", "acceleration") else 5
+    return 4 if quantity in ("position", "velocity", "acceleration") else 6
 
 
 def used_signals(study):
@@ -96,6 +100,17 @@ def every_row(job):
     return rows
 
 
+def contacts(job):
+    """[(name, smallest gap before, after, largest normal force before, after)] of each contact and clearance; None where it is not known."""
+    rows = {row["name"]: row for row in every_row(job)}
+
+    def pair(name, key):
+        row = rows.get(name, {})
+        return [(row.get(side) or {}).get(key) for side in ("initial", "tuned")]
+
+    return [(of, *pair(name, "smallest"), *pair(f"{of}/normal_force", "largest")) for name in rows for of, _, quantity in [name.rpartition("/")] if quantity == "gap"]
+
+
 MOST_DOTS = 60  # of a curve over postures, which has a dot in each
 
 
@@ -130,7 +145,8 @@ def signal_groups(job, scale=1.0):
     groups = [(title, words, []) for title, words in GROUPS]
     rows, references = signal_rows(job)[0], asked.numbers_asked(job.study)
     most = int(scale * max(24, min(240, CAPACITY // (22 * max(1, min(len(rows), MOST_CHARTS))))))
-    groups_of = {row["name"]: group_of(row["name"], asked_signals(job.study), used) for row in rows}
+    touching = {name for name, *_ in contacts(job)}
+    groups_of = {row["name"]: group_of(row["name"], asked_signals(job.study), used, touching) for row in rows}
     for row in sorted(rows, key=lambda row: groups_of[row["name"]])[:MOST_CHARTS]:
         series = curves(job, row["name"])
         if series:

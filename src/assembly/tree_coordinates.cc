@@ -181,6 +181,11 @@ GivenStart::GivenStart(const System& system, TreeLayout* layout) {
   const auto size = to_index(tree.size);
   for (std::vector<bool>* flags : {&position, &guess, &velocity, &velocity_beside})
     flags->assign(size, false);
+  for (std::size_t k = 0; k < system.robot().joints.size(); ++k) {
+    if (!system.robot().joints[k].is_play) continue;
+    mark(&position, tree.offset[k], 1, true);
+    mark(&velocity, tree.offset[k], 1, true);
+  }
   for (const InitialJointState& initial : system.study().initial_state) {
     const int joint = tree_joint(system.robot(), initial);
     if (joint < 0) continue;

@@ -7,6 +7,7 @@
 #include "cli/report.h"
 #include "description/study.h"
 #include "integration/simulation_of.h"
+#include "jobs/near_links.h"
 #include "jobs/record_json.h"
 #include "jobs/result_fields.h"
 #include "jobs/run_recorder.h"
@@ -14,6 +15,7 @@
 #include "mechanism/machine_numbers.h"
 #include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
+#include "reading/urdf/foreign_contacts.h"
 #include "reading/urdf/pictures.h"
 #include "reading/urdf/starting_overlay.h"
 #include "reading/urdf/urdf_reader.h"
@@ -71,10 +73,15 @@ void print_numbers(const std::vector<MachineNumber>& numbers, std::ostream& out)
   print_names("numbers that are not given and follow the machine", rows, out);
 }
 
-/// The limits that the start exceeds. @param warnings those of the start are appended.
-std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
-                                              const std::vector<double>& parameters,
-                                              Warnings* warnings) {
+/// What the start shows.
+struct StartReport {
+  std::vector<LimitCrossing> crossings;  ///< limits that it exceeds
+  std::vector<NearLinks> near;
+};
+
+/// @param warnings those of the start are appended.
+StartReport look_at_start(const Problem& problem, const std::vector<double>& parameters,
+                          Warnings* warnings) {
   Simulation simulation = simulation_of(system_of(problem), parameters);
   LimitWatch watch(problem, parameters, simulation.names());
   Frame frame;
@@ -82,7 +89,31 @@ std::vector<LimitCrossing> crossings_at_start(const Problem& problem,
   append(simulation.warnings(), warnings);
   simulation.sample(0.0, &frame);
   watch.observe(frame);
-  return watch.crossings();
+  return {watch.crossings(), find_near_links(problem, parameters, simulation.names().links, frame)};
+}
+
+void print_near(const std::vector<NearLinks>& near, std::ostream& out) {
+  std::vector<std::string> rows;
+  for (const NearLinks& links : near)
+    rows.push_back(links.first + " and " + links.second + ": " +
+                   (links.distance > 0.0 ? readable(1e3 * links.distance, 3) + " mm apart"
+                                         : "the boxes overlap"));
+  print_names(
+      "links whose <collision> are near each other at the start; they pass through each other, "
+      "since no <codesign:contact> lets them touch",
+      rows, out);
+}
+
+Json near_json(const std::vector<NearLinks>& near) {
+  Json list = Json::array();
+  for (const NearLinks& links : near) {
+    Json one;
+    one["first"] = links.first;
+    one["second"] = links.second;
+    one["distance"] = links.distance;
+    list.push_back(std::move(one));
+  }
+  return list;
 }
 
 }  // namespace
@@ -93,7 +124,8 @@ int check(const Arguments& arguments, const Console& console) {
   Status status;
   const Counts counts = count_equations(*system_of(problem), parameters, &status);
   Warnings warnings;
-  const std::vector<LimitCrossing> crossings = crossings_at_start(problem, parameters, &warnings);
+  const StartReport start = look_at_start(problem, parameters, &warnings);
+  append(find_foreign_contacts(problem.urdf(), problem.overlays(), robot_of(problem)), &warnings);
   const std::vector<MachineNumber> numbers = machine_numbers_of(problem, parameters);
   const std::vector<RecordingSummary> recordings = check_recordings(problem, console, &warnings);
   if (status.ok())
@@ -101,14 +133,16 @@ int check(const Arguments& arguments, const Console& console) {
   if (!arguments.json && status.ok()) {
     print_table(counts, console.out);
     print_numbers(numbers, console.out);
-    for (const LimitCrossing& crossing : crossings) console.out << describe(crossing) << '\n';
+    print_near(start.near, console.out);
+    for (const LimitCrossing& crossing : start.crossings) console.out << describe(crossing) << '\n';
     print_recordings(recordings, console.out);
   }
   Json object;
   object["model"] = robot_of(problem).name;
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = record_json(counts);
-  object["limits_exceeded"] = to_json(crossings);
+  object["limits_exceeded"] = to_json(start.crossings);
+  object["near_links"] = near_json(start.near);
   object["machine_numbers"] = to_json(numbers);
   if (study_of(problem).identification) object["recordings"] = to_json(recordings);
   add_warnings(arguments, problem, warnings, &object, console);

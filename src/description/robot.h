@@ -103,6 +103,7 @@ struct LinkDescription {
   std::string name;
   std::optional<InertialDescription> inertial;
   SourceLocation where;
+  bool stays = false;  ///< a link without mass that is not folded into a joint
 };
 
 /// `<limit>`. Exporters write zeros for unknown limits; the three bounds_ functions tell which
@@ -206,6 +207,9 @@ struct JointDescription {
   /// together
   int motor = -1;
   bool is_motor = false;  ///< it is such a joint
+  /// it lets another joint play, with_clearance(): zero at the start unless the study says
+  /// otherwise
+  bool is_play = false;
   SourceLocation where;
 
   /// Its row of the table of joints: what it leaves free, and how.
@@ -263,10 +267,19 @@ struct SpringDamperDescription {
   SourceLocation where;
 };
 
+/// The axes of a shape in a joint with clearance: z along the joint's axis, x along x''.
+struct ShapeAxes {
+  QuantityVector axis;                              ///< of the joint, in its frame
+  std::optional<std::array<double, 3>> transverse;  ///< towards x''; none: transverse_axis()
+  bool across = false;                              ///< z is x'', and x is y''
+};
+
 /// One side of a contact: a shape that a link carries.
 struct ContactEnd {
   int link = -1;
-  PoseDescription origin;  ///< the frame of the shape in that of the link
+  PoseDescription origin;         ///< the frame of the shape in that of the link
+  std::optional<ShapeAxes> axes;  ///< the shape's in that frame; none: those of the frame
+  Quantity clearance;             ///< [m], by which a hollow shape is larger than what it holds
   ShapeKind shape = ShapeKind::kSphere;
   Quantity radius, length;                 ///< [m]; those that the shape does not have are zero
   QuantityVector size;                     ///< [m]
@@ -287,10 +300,13 @@ struct ContactDescription {
   Quantity impact_velocity;             ///< at which `restitution` holds [m/s]
   std::optional<FrictionDescription> friction;
   SourceLocation where;
+  std::string clearance;  ///< the element of the joint whose clearance this is; empty: of none
 
   bool has_loss() const { return loss || restitution; }
   /// The element for messages: `<codesign:contact name="sole">`.
-  std::string element() const { return "<codesign:contact name=\"" + name + "\">"; }
+  std::string element() const {
+    return clearance.empty() ? "<codesign:contact name=\"" + name + "\">" : clearance;
+  }
 };
 
 /// A mechanism as the annotated URDF describes it; nothing is derived from it yet.

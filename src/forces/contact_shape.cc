@@ -141,6 +141,14 @@ SurfaceDistance<T> from_cylinder(const Vector3<T>& at, const ShapeNumbers<T>& c)
   return from_edges<T, 2>(beyond, {Vector3<T>(0.0, 0.0, sign), side.normal});
 }
 
+/// Between two planes, of which the nearer one counts.
+template <class T>
+SurfaceDistance<T> from_slot(const Vector3<T>& at, const ShapeNumbers<T>& c) {
+  if (shows_all_branches(at)) return from_all_branches(at);
+  const T sign = sign_of(at[2]);
+  return {0.5 * c.length - sign * at[2], Vector3<T>(0.0, 0.0, -sign)};
+}
+
 // Points.
 
 template <class T>
@@ -226,6 +234,20 @@ constexpr ContactShape socket() {
   return shape;
 }
 
+/// The journal of a bearing is taken as a ball, as by Flores and others.
+constexpr ContactShape bore() {
+  ContactShape shape = hollow("bore", {from_bore, from_bore});
+  shape.curvature = {hollow_curvature, hollow_curvature};
+  return shape;
+}
+
+constexpr ContactShape slot() {
+  ContactShape shape = make_row("slot", {from_slot, from_slot});
+  shape.has_length = shape.holds_points = true;
+  shape.curvature = {no_curvature, no_curvature};
+  return shape;
+}
+
 constexpr ContactShape capsule() {
   ContactShape shape = make_round("capsule", {from_capsule, from_capsule});
   shape.has_length = shape.ball = true;
@@ -257,15 +279,20 @@ constexpr ContactShape disc() {
 }
 
 constexpr ContactShape kShapeTable[] = {
-    sphere(),  plane(), socket(),   hollow("bore", {from_bore, from_bore}),
-    capsule(), box(),   cylinder(), disc(),
+    sphere(), plane(), socket(), bore(), capsule(), box(), cylinder(), disc(), slot(),
 };
 
 }  // namespace
 
 static_assert(std::string_view(kShapeTable[0].name) == "sphere",
-              "the constant below counts rows: append new ones");
-const ShapeKind ShapeKind::kSphere{kShapeTable[0]};
+              "the constants below count rows: append new ones");
+static_assert(std::string_view(kShapeTable[2].name) == "socket" &&
+              std::string_view(kShapeTable[3].name) == "bore" &&
+              std::string_view(kShapeTable[5].name) == "box" &&
+              std::string_view(kShapeTable[8].name) == "slot");
+const ShapeKind ShapeKind::kSphere{kShapeTable[0]}, ShapeKind::kSocket{kShapeTable[2]},
+    ShapeKind::kBore{kShapeTable[3]}, ShapeKind::kBox{kShapeTable[5]},
+    ShapeKind::kSlot{kShapeTable[8]};
 
 std::vector<ShapeKind> contact_shapes() {
   return std::vector<ShapeKind>(std::begin(kShapeTable), std::end(kShapeTable));

@@ -60,7 +60,7 @@ struct ContactShape {
 class ShapeKind : public RowReference<ContactShape> {
  public:
   using RowReference::RowReference;
-  static const ShapeKind kSphere;
+  static const ShapeKind kSphere, kSocket, kBore, kBox, kSlot;
 };
 
 /// The library's shapes.

@@ -17,7 +17,20 @@ constexpr double kOnset = 1e-11;
 
 template <class T>
 ShapeNumbers<T> shape_numbers(const ContactEnd& end, const std::vector<T>& parameters) {
-  return {end.radius.at(parameters), end.length.at(parameters), vector_at(end.size, parameters)};
+  const T clearance = end.clearance.at(parameters);
+  return {end.radius.at(parameters) + clearance, end.length.at(parameters) + 2.0 * clearance,
+          vector_at(end.size, parameters)};
+}
+
+template <class T>
+Matrix3<T> axes_at(const ShapeAxes& axes, const std::vector<T>& parameters) {
+  const Vector3<T> z = axis_at(axes.axis, parameters), x = transverse_axis<T>(z, axes.transverse),
+                   y = cross<T>(z, x);
+  Matrix3<T> R;
+  R.col(0) = axes.across ? y : x;
+  R.col(1) = axes.across ? z : y;
+  R.col(2) = axes.across ? x : z;
+  return R;
 }
 
 double nominal_extent(const ContactEnd& end) {
@@ -41,6 +54,8 @@ ContactSide<T> contact_side(const RobotDescription& robot, const Topology& topol
   const Pose<T> origin = pose_at(end.origin, parameters);
   side.frame.s = links[link].R * origin.t + links[link].s;
   side.frame.R = links[link].R * origin.R;
+  if (end.axes) side.frame.R = side.frame.R * axes_at(*end.axes, parameters);
+  side.clearance = end.clearance.at(parameters);
   side.shape = shape_numbers(end, parameters);
   return side;
 }
@@ -103,6 +118,8 @@ CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 
 std::string contact_fault(const ContactDescription& contact, const ContactConstants<double>& c) {
   const std::string of = " of contact '" + contact.name + "' is ";
+  if (!(c.surface.clearance >= 0.0))
+    return "clearance" + of + to_decimal(c.surface.clearance) + " (allowed: >= 0)";
   const auto side_fault = [&](const ContactEnd& end, const ShapeNumbers<double>& n) -> std::string {
     if (end.shape->has_radius && !(n.radius > 0.0)) return "radius" + of + to_decimal(n.radius);
     if (end.shape->has_length && !(n.length > 0.0)) return "length" + of + to_decimal(n.length);

@@ -24,7 +24,8 @@ template <class T>
 struct ContactSide {
   int body = -1;           ///< -1: the ground
   LinkConstants<T> frame;  ///< of the shape, in the body
-  ShapeNumbers<T> shape;
+  ShapeNumbers<T> shape;   ///< with the clearance
+  T clearance{0.0};        ///< [m]
 };
 
 /// A contact at one design; theory (13k) to (13m).

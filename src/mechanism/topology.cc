@@ -56,7 +56,8 @@ class TopologyBuilder {
     is_body_.assign(robot_.links.size(), false);
     is_body_[index(robot_.root)] = true;
     for (std::size_t link = 0; link < robot_.links.size(); ++link)
-      if (has_mass(robot_.links[link])) is_body_[index(topology_.link_base[link])] = true;
+      if (has_mass(robot_.links[link]) || robot_.links[link].stays)
+        is_body_[index(topology_.link_base[link])] = true;
   }
 
   // Bodies are numbered in the order of their base links in the file, which is the order of q.

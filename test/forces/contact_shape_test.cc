@@ -32,6 +32,8 @@ TEST(ContactShape, DistancesByHand) {
   EXPECT_NEAR(distance("sphere", V(0.0, 0.1, 0.0)), -0.2, 1e-15);
   EXPECT_NEAR(distance("socket", V(0.0, 0.1, 0.0)), 0.2, 1e-15);
   EXPECT_NEAR(distance("bore", V(0.06, 0.08, 7.0)), 0.2, 1e-15);
+  EXPECT_NEAR(distance("slot", V(3.0, -2.0, 0.25)), 0.15, 1e-15);
+  EXPECT_NEAR(distance("slot", V(3.0, -2.0, -0.5)), -0.1, 1e-15);
   EXPECT_NEAR(distance("capsule", V(0.5, 0.0, 0.39)), 0.2, 1e-15) << "beside it";
   EXPECT_NEAR(distance("capsule", V(0.3, 0.0, -0.8)), 0.2, 1e-15) << "beyond its end";
   EXPECT_NEAR(distance("box", V(0.25, 0.1, 0.2)), 0.05, 1e-15) << "a face";
@@ -64,7 +66,7 @@ TEST(ContactShape, NormalIsTheGradientOfTheDistance) {
       ++tried;
     }
   }
-  EXPECT_EQ(tried, 7 * 5);
+  EXPECT_EQ(tried, 8 * 5);
 }
 
 TEST(ContactShape, CentresOfHollowsAreFinite) {
@@ -99,10 +101,12 @@ TEST(ContactShape, TheTableSaysWhatTouchesWhat) {
   const auto takes = [](const char* surface, const char* points) {
     return shape_of(surface).takes(shape_of(points));
   };
-  for (const char* surface : {"plane", "sphere", "socket", "bore", "capsule", "box", "cylinder"})
+  for (const char* surface :
+       {"plane", "sphere", "socket", "bore", "slot", "capsule", "box", "cylinder"})
     EXPECT_TRUE(takes(surface, "sphere")) << surface;
   for (const char* points : {"capsule", "box"}) {
-    for (const char* surface : {"plane", "socket", "bore"}) EXPECT_TRUE(takes(surface, points));
+    for (const char* surface : {"plane", "socket", "bore", "slot"})
+      EXPECT_TRUE(takes(surface, points));
     for (const char* surface : {"sphere", "box", "capsule", "cylinder", "disc"})
       EXPECT_FALSE(takes(surface, points)) << surface << points;
   }

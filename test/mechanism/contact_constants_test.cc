@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "integration/playing.h"
 #include "integration/touching.h"
 #include "mechanism/constants.h"
 
@@ -48,6 +49,18 @@ TEST(ContactConstants, HertzByHand) {
   expect(Evaluated(round_contact("shape='sphere' radius='0.2'", of_rubber)), rubber, 0.04);
   expect(Evaluated(round_contact("shape='socket' radius='0.2'", of_steel)), steel, 1.0 / 15.0);
   expect(Evaluated(round_contact("shape='plane'", of_steel), {0.02, 0.3, 0.05}), steel, 0.02);
+}
+
+// The bearing of 10 mm of Flores, Ambrosio, Claro and Lankarani (2007), whose K is 6.61e10 N/m^1.5.
+TEST(ContactConstants, HertzOfAJournalIsThePublishedNumber) {
+  const RobotDescription robot = read_urdf(
+      {"test.urdf", playing_slider_crank("",
+                                         "<codesign:clearance radial='5e-4' radius='0.0095' "
+                                         "youngs_modulus='2.07e11' poisson_ratio='0.3'/>")});
+  const Topology topology = derive_topology(robot);
+  const Constants<double> constants = evaluate_constants(robot, topology, default_values(robot));
+  EXPECT_NEAR(constants.contacts.at(0).force.stiffness, 6.61e10, 0.005e10);
+  EXPECT_EQ(constants.contacts[0].surface.shape.radius, 0.01);
 }
 
 TEST(ContactConstants, SidesAndLosses) {

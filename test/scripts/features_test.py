@@ -35,7 +35,7 @@ class Features(unittest.TestCase):
 
     def test_there_is_a_study_for_each_feature(self):
         self.assertEqual({feature.name for feature in features()},
-                         {"given_motion", "varying_loads", "lossy_gear", "elastic_gear", "friction_in_newton_metres", "stuck_start", "planar_loop", "bounds", "postures", "moving_end", "switches", "margins", "contact", "motor_by_voltage", "observer", "current_loop"})
+                         {"given_motion", "varying_loads", "lossy_gear", "elastic_gear", "friction_in_newton_metres", "stuck_start", "planar_loop", "bounds", "postures", "moving_end", "switches", "margins", "contact", "clearance", "motor_by_voltage", "observer", "current_loop"})
 
     def test_its_signals_are_shown_in_every_run(self):
         for feature in features():

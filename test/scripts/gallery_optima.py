@@ -392,6 +392,13 @@ def cam_drive():
     return {"stiffness": (stiffness, 1e-5), "free_position": (-(20.0 - 0.5 * G) / stiffness, 1e-5)}
 
 
+def knocking_pin():
+    """The work of the weight m g (c + delta) is in the bearing where the blow P = k delta^1.5 is greatest: k delta^2.5/2.5."""
+    weight, stiffness, blow = 20.0 * G, 1e9, 2000.0
+    depth = (blow / stiffness) ** (2.0 / 3.0)
+    return {"clearance": (blow * depth / (2.5 * weight) - depth, 1e-5)}
+
+
 # Further numbers of the pages: the text before each, and its value.
 def flexible_loop(p, d, notch):
     """L(jw) as a function of w [rad/s]."""

@@ -5,6 +5,7 @@ import math
 import os
 import re
 import sys
+import types
 import unittest
 
 sys.dont_write_bytecode = True
@@ -21,6 +22,16 @@ class Parts(unittest.TestCase):
         self.assertIn('value="0.1"', numbers.number(0.1))
         self.assertEqual(numbers.ticks(0.0, 2.0), [0.0, 0.5, 1.0, 1.5, 2.0])
         self.assertLessEqual(len(numbers.ticks(-1.57e-5, 0.0)), 7)
+
+    def test_rows_and_group_of_contacts(self):
+        def of(name, smallest, largest):
+            return {"name": name, "smallest": smallest, "largest": largest}
+
+        sides = {"initial": [of("pin/gap", -1e-5, 1e-4), of("pin/normal_force", 0.0, 30.0), of("hinge/normal_force", 0.0, 5.0)], "tuned": [of("pin/gap", -2e-5, 1e-4), of("pin/normal_force", 0.0, 60.0)]}
+        job = types.SimpleNamespace(details={side: {"signals": rows} for side, rows in sides.items()}, runs={})
+        self.assertEqual(signals.contacts(job), [("pin", -1e-5, -2e-5, 30.0, 60.0)])
+        groups = {name: signals.GROUPS[signals.group_of(name, (), (), {"pin"})][0] for name in ("pin/normal_force", "pin/gap", "hinge/normal_force", "hinge/position", "mechanism/friction_power")}
+        self.assertEqual(list(groups.values()), ["Contacts", "Contacts", "Friction", "Motion", "Powers of the mechanism"])
 
     def test_ticks_of_a_small_range_differ(self):
         for low, high in ((58.0001, 58.0004), (1e-12, 1.0), (-2e-5, 1e-5), (1e6, 1e6 + 3), (0.1, 0.1000000001)):

@@ -47,14 +47,32 @@ void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
   }
 }
 
+/// `<codesign:friction>` where bodies touch.
+void add_contact_friction(const std::string& path, std::vector<ElementRule>* rules) {
+  rules->push_back(
+      Rule(path + "/codesign:friction")
+          .strict()
+          .plain({"model"})
+          .twins({"mu_static", "mu_dynamic", "transition_velocity", "stribeck_velocity"}));
+}
+
+Names contact_numbers() {
+  return {"stiffness", "exponent", "dissipation", "damping", "restitution", "impact_velocity"};
+}
+
+Names clearance_numbers() {
+  Names names{"radial", "axial", "radius", "length", "width", "youngs_modulus", "poisson_ratio"};
+  for (const std::string& name : contact_numbers()) names.push_back(name);
+  return names;
+}
+
 /// `<codesign:contact>`: its ends have a shape, too.
 void add_contact(std::vector<ElementRule>* rules) {
   const std::string path = "robot/codesign:contact";
   rules->push_back(Rule(path)
                        .strict()
                        .plain({"name", "model"})
-                       .twins({"stiffness", "exponent", "dissipation", "damping", "restitution",
-                               "impact_velocity"})
+                       .twins(contact_numbers())
                        .children({"predecessor", "successor", "codesign:friction"}));
   for (const char* end : {"/predecessor", "/successor"}) {
     rules->push_back(Rule(path + end)
@@ -64,11 +82,7 @@ void add_contact(std::vector<ElementRule>* rules) {
                          .children({"origin"}));
     rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
   }
-  rules->push_back(
-      Rule(path + "/codesign:friction")
-          .strict()
-          .plain({"model"})
-          .twins({"mu_static", "mu_dynamic", "transition_velocity", "stribeck_velocity"}));
+  add_contact_friction(path, rules);
 }
 
 Names friction_attributes() {
@@ -102,6 +116,12 @@ void add_joint_parts(const std::string& path, bool strict, std::vector<ElementRu
                        .twins({"stiffness", "damping", "free_position"}));
   rules->push_back(
       Rule(path + "/codesign:actuator").strict().plain({"model"}).twins(actuator_attributes()));
+  rules->push_back(Rule(path + "/codesign:clearance")
+                       .strict()
+                       .plain({"model", "transverse_axis"})
+                       .twins(clearance_numbers())
+                       .children({"codesign:friction"}));
+  add_contact_friction(path + "/codesign:clearance", rules);
 }
 
 void add_link_rules(std::vector<ElementRule>* rules) {
@@ -132,22 +152,23 @@ std::vector<ElementRule> make_rules() {
 
   add_link_rules(&rules);
 
-  rules.push_back(
-      Rule("robot/joint")
-          .own({"type"})
-          .children({"codesign:friction", "codesign:torsion_spring", "codesign:actuator"}));
+  rules.push_back(Rule("robot/joint")
+                      .own({"type"})
+                      .children({"codesign:friction", "codesign:torsion_spring",
+                                 "codesign:actuator", "codesign:clearance"}));
   rules.push_back(Rule("robot/joint/origin").twins({"xyz", "rpy"}));
   rules.push_back(Rule("robot/joint/limit").twins({"lower", "upper", "effort", "velocity"}));
   rules.push_back(Rule("robot/joint/mimic").twins({"multiplier", "offset"}));
   add_joint_parts("robot/joint", false, &rules);
 
-  rules.push_back(Rule("robot/loop")
-                      .strict()
-                      .plain({"name", "type"})
-                      .own({"out_of_plane"})
-                      .children({"predecessor", "successor", "axis", "dynamics",
-                                 "codesign:second_axis", "codesign:length", "codesign:friction",
-                                 "codesign:torsion_spring", "codesign:actuator"}));
+  rules.push_back(
+      Rule("robot/loop")
+          .strict()
+          .plain({"name", "type"})
+          .own({"out_of_plane"})
+          .children({"predecessor", "successor", "axis", "dynamics", "codesign:second_axis",
+                     "codesign:length", "codesign:friction", "codesign:torsion_spring",
+                     "codesign:actuator", "codesign:clearance"}));
   add_ends("robot/loop", &rules);
   add_joint_parts("robot/loop", true, &rules);
   rules.push_back(Rule("robot/loop/codesign:second_axis").strict().twins({"xyz"}));
@@ -190,9 +211,12 @@ std::vector<std::string> annotation_elements() {
 
 std::vector<std::string> places_of(const std::string& annotation) {
   std::vector<std::string> places;
-  for (const ElementRule& rule : rules())
-    if (std::find(rule.children.begin(), rule.children.end(), annotation) != rule.children.end())
-      places.push_back("<" + rule.path.substr(rule.path.rfind('/') + 1) + ">");
+  for (const ElementRule& rule : rules()) {
+    const std::string place = "<" + rule.path.substr(rule.path.rfind('/') + 1) + ">";
+    if (std::find(rule.children.begin(), rule.children.end(), annotation) != rule.children.end() &&
+        std::find(places.begin(), places.end(), place) == places.end())
+      places.push_back(place);
+  }
   return places;
 }
 

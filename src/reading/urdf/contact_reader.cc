@@ -44,21 +44,14 @@ ContactEnd read_end(const XmlElement& end, int link, const ReadContext& context)
     for (const Quantity& edge : result.size)
       if (!(edge.nominal() > 0.0)) end.fail_at("size", "an edge is not positive", "> 0");
   }
-  if (end.has("youngs_modulus")) result.youngs_modulus = positive("youngs_modulus");
-  result.poisson_ratio =
-      read_quantity_or(0.3, end, "poisson_ratio", Range::kNonNegative, context.table);
-  if (result.poisson_ratio.nominal() > 0.5)
-    end.fail_at("poisson_ratio", "Poisson's ratio is above 0.5", "0 to 0.5");
-  if (end.has("poisson_ratio") && !result.youngs_modulus)
-    end.fail_at("poisson_ratio", "Poisson's ratio has no meaning without youngs_modulus",
-                "beside youngs_modulus");
+  read_material(end, context, &result);
   return result;
 }
 
 /// At the default parameters.
 double curvature_of(const ContactEnd& end) {
   return end.shape->curvature.of<double>(
-      ShapeNumbers<double>{end.radius.nominal(), end.length.nominal()});
+      ShapeNumbers<double>{end.radius.nominal() + end.clearance.nominal(), end.length.nominal()});
 }
 
 /// What may touch what, for messages.
@@ -162,11 +155,8 @@ void read_loss(const XmlElement& element, const ReadContext& context, ContactDes
 
 }  // namespace
 
-void read_link_element(const XmlElement& element, const ReadContext& context,
-                       ContactDescription* contact) {
-  contact->where = element.where();
-  contact->name = element.text("name");
-  read_ends(element, context, contact);
+void read_contact_force(const XmlElement& element, const ReadContext& context,
+                        ContactDescription* contact) {
   contact->model = read_law(element, *context.laws);
   read_stiffness(element, context, contact);
   read_loss(element, context, contact);
@@ -176,6 +166,26 @@ void read_link_element(const XmlElement& element, const ReadContext& context,
   if (contact->friction->model->bristle)
     friction->fail_at("model", "friction laws with states are not available where bodies touch",
                       "brown_mcphee or stribeck");
+}
+
+void read_material(const XmlElement& element, const ReadContext& context, ContactEnd* end) {
+  if (element.has("youngs_modulus"))
+    end->youngs_modulus = read_quantity(element, "youngs_modulus", Range::kPositive, context.table);
+  end->poisson_ratio =
+      read_quantity_or(0.3, element, "poisson_ratio", Range::kNonNegative, context.table);
+  if (end->poisson_ratio.nominal() > 0.5)
+    element.fail_at("poisson_ratio", "Poisson's ratio is above 0.5", "0 to 0.5");
+  if (element.has("poisson_ratio") && !end->youngs_modulus)
+    element.fail_at("poisson_ratio", "Poisson's ratio has no meaning without youngs_modulus",
+                    "beside youngs_modulus");
+}
+
+void read_link_element(const XmlElement& element, const ReadContext& context,
+                       ContactDescription* contact) {
+  contact->where = element.where();
+  contact->name = element.text("name");
+  read_ends(element, context, contact);
+  read_contact_force(element, context, contact);
 }
 
 }  // namespace codesign

@@ -104,6 +104,8 @@ void refuse_transition(const XmlElement& element, const FrictionModel& model,
                     allowed);
 }
 
+}  // namespace
+
 std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis) {
   const std::vector<Quantity> given =
       parse_quantities(element, "transverse_axis", 3, ParameterTable());
@@ -115,8 +117,6 @@ std::array<double, 3> read_transverse_axis(const XmlElement& element, const Quan
                     "a vector that is not parallel to the joint axis");
   return result;
 }
-
-}  // namespace
 
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
                                   const ReadContext& context) {

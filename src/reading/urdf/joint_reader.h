@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -33,6 +34,9 @@ struct ReadContext {
 FrictionDescription read_friction(const XmlElement& element, const QuantityVector& axis,
                                   const ReadContext& context);
 
+/// Reads the attribute `transverse_axis`. @throws InputError if it is parallel to the axis.
+std::array<double, 3> read_transverse_axis(const XmlElement& element, const QuantityVector& axis);
+
 /// Reads one `<codesign:actuator>` of a joint of this law. @throws InputError
 ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context);
@@ -47,6 +51,20 @@ void read_link_element(const XmlElement& element, const ReadContext& context,
 /// that cannot touch each other are an error, which names those that can.
 void read_link_element(const XmlElement& element, const ReadContext& context,
                        ContactDescription* contact);
+
+/// Reads what `<codesign:contact>` and `<codesign:clearance>` have in common: law, stiffness, loss
+/// and friction. @param contact with its two ends. @throws InputError
+void read_contact_force(const XmlElement& element, const ReadContext& context,
+                        ContactDescription* contact);
+/// Reads the material of one side of a contact. @throws InputError
+void read_material(const XmlElement& element, const ReadContext& context, ContactEnd* end);
+
+/// Replaces the constraint of each joint and loop with a `<codesign:clearance>` by the contact of
+/// journal and bearing, theory (13n): adds joints of the tree, NAME_x and so on with
+/// JointDescription::is_play, by which its parent's side moves freely, and the contacts
+/// NAME_clearance. @throws InputError
+void read_clearances(const XmlElement& robot, const ReadContext& context,
+                     RobotDescription* description);
 
 /// Reads a `<joint>` of the tree. @throws InputError
 JointDescription read_joint(const XmlElement& element, const ReadContext& context);

@@ -60,11 +60,11 @@ Eigen::Vector3d half_of(const XMLElement* geometry) {
   return Eigen::Vector3d::Zero();
 }
 
-std::vector<SolidBox> boxes_of(const XMLElement* link) {
+std::vector<SolidBox> boxes_of(const XMLElement* link, const char* tag) {
   std::vector<SolidBox> boxes;
-  for (const XMLElement* visual = link->FirstChildElement("visual"); visual != nullptr;
-       visual = visual->NextSiblingElement("visual")) {
-    const SolidBox box{plain_origin(visual), half_of(visual->FirstChildElement("geometry"))};
+  for (const XMLElement* solid = link->FirstChildElement(tag); solid != nullptr;
+       solid = solid->NextSiblingElement(tag)) {
+    const SolidBox box{plain_origin(solid), half_of(solid->FirstChildElement("geometry"))};
     if (box.half.minCoeff() > 0.0) boxes.push_back(box);
   }
   return boxes;
@@ -72,7 +72,8 @@ std::vector<SolidBox> boxes_of(const XMLElement* link) {
 
 }  // namespace
 
-LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links) {
+LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links,
+                     const char* tag) {
   LinkBoxes boxes(links.size());
   tinyxml2::XMLDocument document;
   if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS ||
@@ -82,7 +83,7 @@ LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& li
        link = link->NextSiblingElement("link")) {
     const char* name = link->Attribute("name");
     const auto found = std::find(links.begin(), links.end(), name != nullptr ? name : "");
-    if (found != links.end()) boxes[to_index(found - links.begin())] = boxes_of(link);
+    if (found != links.end()) boxes[to_index(found - links.begin())] = boxes_of(link, tag);
   }
   return boxes;
 }

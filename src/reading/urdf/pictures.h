@@ -23,7 +23,7 @@ Eigen::Vector3d plain_vector(const tinyxml2::XMLElement* element, const char* at
 /// radians about fixed axes x, y, z.
 Eigen::Isometry3d plain_origin(const tinyxml2::XMLElement* element);
 
-/// The box around a visual solid.
+/// The box around a solid.
 struct SolidBox {
   /// axes of the box, with the origin in its centre, in the frame of its link
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -36,9 +36,10 @@ using LinkBoxes = std::vector<std::vector<SolidBox>>;
 /// The boxes around the `<visual>` elements of a URDF whose numbers are at their values, as
 /// write_tuned_urdf() makes it.
 /// @param links names; the result has one entry for each, in their order. A link without visuals
-/// has no boxes, nor has a mesh, whose size is not known. @returns entries without boxes if the
-/// text cannot be read: this serves pictures only.
-LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links);
+/// has no boxes, nor has a mesh, whose size is not known. @param tag `visual` or `collision`.
+/// @returns entries without boxes if the text cannot be read: this serves pictures and advice only.
+LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links,
+                     const char* tag = "visual");
 
 /// A file of a package of ROS.
 struct PackageFile {

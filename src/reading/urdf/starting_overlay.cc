@@ -87,7 +87,17 @@ class Writer {
   }
 
   bool takes_actuator(const JointDescription& joint) const {
-    return !joint.is_loop && joint.has_one_coordinate() && !joint.actuator && !joint.mimic;
+    return !joint.is_loop && joint.has_one_coordinate() && !joint.actuator && !joint.mimic &&
+           !plays(joint);
+  }
+
+  /// Whether it belongs to a clearance: the joint, which has neither rotor nor friction of its own,
+  /// or one of those that let it play.
+  bool plays(const JointDescription& joint) const {
+    return joint.is_play || std::any_of(robot_.joints.begin(), robot_.joints.end(),
+                                        [&joint](const JointDescription& other) {
+                                          return other.is_play && other.child == joint.parent;
+                                        });
   }
 
   /// The reductions of `<transmission>`, which are read for joints with an actuator.
@@ -197,7 +207,7 @@ class Writer {
       const auto element = std::find_if(joints.begin(), joints.end(), [&](const XmlElement& one) {
         return one.find("name") == joint.name;
       });
-      if (joint.is_loop || joint.mimic || !joint.has_one_coordinate()) continue;
+      if (joint.is_loop || joint.mimic || !joint.has_one_coordinate() || plays(joint)) continue;
       if (element != joints.end()) write_joint(joint, *element);
     }
   }

@@ -181,6 +181,7 @@ RobotDescription read_robot(const XmlDocument& document, const Laws& laws) {
     for (const XmlElement& one : element.children(kind.tag))
       read_link_element(one, context, &elements.emplace_back());
   });
+  read_clearances(element, context, &robot);
   read_transmissions(element, &robot);
   check_twins(element, "robot", context.table);
   robot.used_parameters = context.table.used;

@@ -62,9 +62,10 @@ TEST(AnnotationRules, HaveTheTwinsOfThePage) {
 
 TEST(AnnotationRules, ListsTheElementsOfOurOwn) {
   const std::vector<std::string> names = annotation_elements();
-  EXPECT_EQ(names.size(), 9u);
+  EXPECT_EQ(names.size(), 10u);
   EXPECT_TRUE(has(names, "codesign:spring_damper") && has(names, "codesign:second_axis") &&
-              has(names, "codesign:length") && has(names, "codesign:contact"));
+              has(names, "codesign:length") && has(names, "codesign:contact") &&
+              has(names, "codesign:clearance"));
 }
 
 }  // namespace
