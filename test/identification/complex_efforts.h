@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <optional>
 #include <complex>
 #include <vector>
 
@@ -38,6 +40,7 @@ class ComplexEfforts {
   Equations<Complex> equations_;
   State<Complex> state_;
   Linearization<Complex> derivatives_;
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> lu_;
 };
 
 }  // namespace codesign

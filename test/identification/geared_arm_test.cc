@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/thread_engine.h"
 #include "identification/identify.h"
 
 namespace codesign {
@@ -12,7 +13,8 @@ namespace {
 TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
   const Problem problem = geared_problem();
   const JointRecording clean = clean_geared_recording();
-  for (unsigned seed = 3; seed < 43; seed += 4) {
+  side_by_side(10, 2, [&](std::size_t run) {
+    const unsigned seed = 3 + 4 * static_cast<unsigned>(run);
     StudyRecordings recordings;
     recordings.data = {with_noise(clean, seed)};
     const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -24,7 +26,7 @@ TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
       EXPECT_TRUE(number.is_determined) << number.name;
     }
     expect_geared_truth(found, "seed " + std::to_string(seed));
-  }
+  });
 }
 
 TEST(GearedArm, WithoutTheGearTheLossesAreNotExplained) {

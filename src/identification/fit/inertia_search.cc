@@ -105,7 +105,7 @@ class InertiaSearch {
   std::optional<End> take_step() {
     const LocalProblem local = local_problem(best_, x_, lower_, upper_, inertias_);
     const InertiaStep whole(local.gradient, local.root, local.blocks, local.lower, local.upper);
-    const double left = whole.decrease();
+    const double left = whole.decrease() + best_.inner_decrease;
     if (!(left > kOptimal * best_.value)) return End::kOptimum;
     if (left <= options_.relative_tolerance * best_.value) return End::kValueTolerance;
     double predicted = left;
@@ -140,7 +140,8 @@ class InertiaSearch {
             .asDiagonal();
     const InertiaStep step(local.gradient, local.root, local.blocks, local.lower, local.upper);
     *predicted =
-        step.decrease() + (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm();
+        step.decrease() + (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm() +
+        best_.inner_decrease;
     return moved(local, step);
   }
 
