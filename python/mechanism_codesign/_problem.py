@@ -279,8 +279,9 @@ class Problem:
 
         progress, cancel: as in optimize().
         """
-        given = (position, velocity, effort, joints)
-        data = _recordings(time, given, "identify()")
+        if time is None and not (position is None and velocity is None and effort is None):
+            raise TypeError("identify() with arrays needs their times")
+        data = [] if time is None else _recordings(time, (position, velocity, effort, joints))
         apart = [holdout] if isinstance(holdout, Recording) else list(holdout)
         if apart and not data and not evaluate:
             raise TypeError("identify() with a holdout of arrays needs recordings of arrays")
@@ -305,7 +306,7 @@ class Problem:
         Raises ComputationError if the efforts cannot be computed.
         """
         tables = [each._table(f"recordings[{k}]", self.joints)  # pylint: disable=protected-access
-                  for k, each in enumerate(_recordings(time, (position, velocity, None, joints), "regressor()"))]
+                  for k, each in enumerate(_recordings(time, (position, velocity, None, joints)))]
         failure, *found = self._core.regressor(tables, rho, parameters)
         if failure is not None:
             raise ComputationError(Status(**failure))
@@ -324,16 +325,12 @@ def _event(cancel: Optional[Event]) -> Optional[Event]:
     return cancel
 
 
-def _recordings(time: Union[npt.ArrayLike, Recording, Sequence[Recording], None], given: Tuple[Any, ...], what: str) -> List[Recording]:
+def _recordings(time: Union[npt.ArrayLike, Recording, Sequence[Recording]], given: Tuple[Any, ...]) -> List[Recording]:
     """The recordings that a call is about. given: position, velocity, effort and joints."""
     position, velocity, effort, joints = given
     several: Any = [time] if isinstance(time, Recording) else time
     if isinstance(several, (list, tuple)) and several and all(isinstance(each, Recording) for each in several):
         if not all(each is None for each in given):
-            raise TypeError(f"{what} with a Recording takes no columns beside it")
+            raise TypeError("a Recording takes no columns beside it")
         return list(several)
-    if time is None:
-        if not (position is None and velocity is None and effort is None):
-            raise TypeError(f"{what} with arrays needs their times")
-        return []
     return [Recording(several, position, effort, velocity=velocity, joints=joints)]

@@ -354,12 +354,13 @@ class Regressor:
     [kg m] and `LINK_Jxx` ... [kg m2] about the origin of the link.
 
     outputs: joints whose motion determines all, k of them, then the signals.
-    names, values: of the p numbers, those of the sensors behind those of the model, shape (p,).
-    time: of the n rows of all recordings, shape (n,) [s]. lengths: rows of each recording.
+    names, values: of the p numbers, those of the sensors behind those of the model, shape (p,), in SI units.
+    time: of the n rows of all recordings, shape (n,) [s].
+    lengths: rows of each recording.
     computed: efforts at `values`, shape (n, k) [N m or N].
-    matrix: d effort / d number, shape (n, k, p). `regressor[NAME]` is the part of one number, shape (n, k).
-    base_names, base_values: of the b combinations of the numbers that the motion determines, the base parameters, shape (b,).
-    base: their columns of the matrix, shape (n, k, b): `base @ base_values` is `matrix @ values`.
+    matrix: d effort / d number, shape (n, k, p), in SI units. `regressor[NAME]` is the part of one number, shape (n, k).
+    base_names, base_values: of the b combinations of the numbers that the motion determines, the base parameters, shape (b,), in SI units.
+    base: their columns of the matrix, shape (n, k, b), in SI units: `base @ base_values` is `matrix @ values`.
     """
 
     def __init__(self, outputs: List[str], lengths: List[float], time: Array, computed: Array, names: List[str], values: Array,
@@ -377,7 +378,7 @@ class Regressor:
 
     def __getitem__(self, name: str) -> Array:
         if name not in self.names:
-            raise KeyError(f"{name}: the numbers are {', '.join(self.names)}")
+            raise KeyError(name)
         return self.matrix[:, :, self.names.index(name)]
 
     def __repr__(self) -> str:

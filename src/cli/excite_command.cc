@@ -87,8 +87,8 @@ void print_base(const ExcitationResult& result, std::ostream& out) {
   table.add(head);
   for (std::size_t k = 0; k < result.base.size(); ++k) {
     const PredictedBase& base = result.base[k];
-    std::vector<std::string> line = prediction_line(
-        {}, base.deviation_before, base.deviation, compared, &ComparedTrajectory::base, k);
+    std::vector<std::string> line = prediction_line({}, base.deviation_before, base.deviation,
+                                                    compared, &ComparedTrajectory::base, k);
     line.push_back(base.expression.size() <= kLongest
                        ? base.expression
                        : base.expression.substr(0, kLongest - 4) + " ...");
@@ -199,8 +199,8 @@ int excite(const Arguments& arguments, const Console& console) {
     if (pace.admits_now()) print_excitation_trial(trial, progress_of(arguments, console));
     return !console.cancel;
   };
-  const ExcitationResult result = codesign::excite(
-      problem, observer, &console.cancel, compared ? &*compared : nullptr);
+  const ExcitationResult result =
+      codesign::excite(problem, observer, &console.cancel, compared ? &*compared : nullptr);
   const bool is_found = !result.points.joints.empty();
   if (!arguments.json && is_found) print_excitation(problem, result, console.out);
   Json object = excitation_json(problem, result);

@@ -39,9 +39,9 @@ struct PredictedBase {
 struct ComparedTrajectory {
   Status status;  ///< not ok: the mechanism does not follow it; the other members are empty then
   Eigen::Index samples = 0;
-  double rate = 0.0;       ///< [Hz]
-  double criterion = 0.0;  ///< (46a)
-  double condition = 0.0;  ///< as ExcitationResult::condition
+  double rate = 0.0;                   ///< [Hz]
+  double criterion = 0.0;              ///< (46a)
+  double condition = 0.0;              ///< as ExcitationResult::condition
   Eigen::VectorXd deviations, halves;  ///< of the numbers
   Eigen::VectorXd base;                ///< deviations of the base parameters
 };
@@ -67,7 +67,7 @@ struct ExcitationResult {
   double condition_before = 0.0, condition = 0.0;
   std::vector<PredictedBase> base;  ///< empty if the numbers are the base parameters themselves
   std::optional<ComparedTrajectory> compared;
-  int counted = 0;         ///< number of identified numbers, or sums of them, in the criterion
+  int counted = 0;  ///< number of identified numbers, or sums of them, in the criterion
   TrajectoryPoints before, points;
   Eigen::VectorXd rest;          ///< positions of the joints at both ends
   Eigen::MatrixXd coefficients;  ///< coefficients of the shapes (45), shapes x joints

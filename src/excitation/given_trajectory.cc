@@ -10,10 +10,10 @@ MeasuredMotion given_motion(const JointRecording& given, const FilterOptions& op
   for (const MeasuredJoint& joint : joints)
     if (const JointSamples* samples = given.find(joint.name);
         samples == nullptr || samples->position.empty())
-      throw InputError({given.where, given.element,
-                        "the compared trajectory has no positions of an excited joint: " +
-                            given.file,
-                        joint.name, "a column " + joint.name + "/position"});
+      throw InputError(
+          {given.where, given.element,
+           "the compared trajectory has no positions of an excited joint: " + given.file,
+           joint.name, "a column " + joint.name + "/position"});
   FilterOptions filter = options;
   filter.residual_cutoff = 0.0;
   filter.decimate = 1;

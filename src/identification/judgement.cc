@@ -198,9 +198,9 @@ std::vector<OutputFit> judge_outputs(const RecordingResiduals& source, const Eig
     fit.worst = left.cwiseAbs().maxCoeff();
     const Eigen::ArrayXd roots = left.array().unaryExpr(
         [&](double r) { return std::sqrt(loss_of(loss, r / spreads[k]).weight); });
-    fit.explained = explained_share(roots * measured.array(),
-                                    roots * samples.of(variation, k).array(),
-                                    roots * left.array(), least);
+    fit.explained =
+        explained_share(roots * measured.array(), roots * samples.of(variation, k).array(),
+                        roots * left.array(), least);
     fit.whiteness = ljung_box(left, samples.lengths);
     fits.push_back(std::move(fit));
   }

@@ -50,8 +50,8 @@ Regressor find_regressor(const Problem& problem, const Eigen::VectorXd& x,
                          std::vector<JointRecording> recordings, const std::atomic<bool>* cancel) {
   const IdentificationDescription& options = *study_of(problem).identification;
   if (options.residual != ResidualKind::kEffort)
-    throw InputError({options.where, "identify.residual", "a regressor is one of efforts", "motion",
-                      "effort"});
+    throw InputError(
+        {options.where, "identify.residual", "a regressor is one of efforts", "motion", "effort"});
   StudyRecordings given{std::move(recordings), {}};
   if (std::optional<StudyRecordings> completed = with_given_motions(problem, given))
     given = std::move(*completed);

@@ -181,11 +181,10 @@ constexpr auto fields_of(const BaseParameter*) {
 
 /// Without joint and whiteness.
 constexpr auto fields_of(const OutputFit*) {
-  return std::make_tuple(field("recorded_rms", &OutputFit::recorded),
-                         field("start_rms", &OutputFit::start), field("rms", &OutputFit::rms),
-                         field("worst", &OutputFit::worst),
-                         field("explained", &OutputFit::explained),
-                         field("counted", &OutputFit::counted));
+  return std::make_tuple(
+      field("recorded_rms", &OutputFit::recorded), field("start_rms", &OutputFit::start),
+      field("rms", &OutputFit::rms), field("worst", &OutputFit::worst),
+      field("explained", &OutputFit::explained), field("counted", &OutputFit::counted));
 }
 
 constexpr auto fields_of(const Whiteness*) {

@@ -94,14 +94,11 @@ std::vector<RecordedSetting> settings_of(const Study& study, const RecordedArray
 std::vector<RecordingDescription> descriptions_of(const Problem& problem,
                                                   const std::vector<RecordedArrays>& list) {
   const Study& study = study_of(problem);
-  const ParameterTable table(study.parameters);
   std::vector<RecordingDescription> descriptions;
   for (const RecordedArrays& arrays : list) {
-    for (const SignalSamples& samples : arrays.signals) {
+    for (const SignalSamples& samples : arrays.signals)
       check_signal(samples.signal, robot_of(problem), study.controllers,
                    arrays.element + ".signals");
-      use_parameters(samples.signal, table);
-    }
     RecordingDescription& description = descriptions.emplace_back();
     description.file = "arrays";
     description.is_bag = true;  // read from memory

@@ -54,8 +54,8 @@ struct RecordedArrays {
   std::vector<double> times;
   std::vector<JointSamples> joints;
   std::vector<SignalSamples> signals;
-  ParameterSettings settings;      ///< values of parameters in this recording
-  std::vector<SpeedMask> masks;    ///< with a joint, or of all joints
+  ParameterSettings settings;         ///< values of parameters in this recording
+  std::vector<SpeedMask> masks;       ///< with a joint, or of all joints
   std::vector<StartPosition> starts;  ///< known ones
 };
 
@@ -77,7 +77,8 @@ struct Identified {
 Identified identify(const Problem& problem, const std::optional<RecordingArrays>& arrays,
                     bool is_fitted, const Tell& tell, const std::atomic<bool>* cancel);
 
-/// find_regressor() of recordings. @param design values of all named parameters. @throws InputError as identify()
+/// find_regressor() of recordings. @param design values of all named parameters. @throws InputError
+/// as identify()
 Regressor regressor(const Problem& problem, const RecordingArrays& arrays,
                     const std::vector<double>& design, const std::atomic<bool>* cancel);
 

@@ -206,9 +206,8 @@ py::tuple regressor_of(const Session& session, const py::list& data, const py::o
     return regressor(session.problem(), arrays, design, cancel);
   });
   const auto failure = found.status.ok() ? py::none() : to_python(to_json(found.status));
-  return py::make_tuple(failure, to_list(found.outputs), py::cast(std::vector<double>(
-                                                              found.lengths.begin(),
-                                                              found.lengths.end())),
+  return py::make_tuple(failure, to_list(found.outputs),
+                        py::cast(std::vector<double>(found.lengths.begin(), found.lengths.end())),
                         py::array_t<double>(found.times.size(), found.times.data()),
                         to_array(found.computed), to_list(found.names), to_array(found.values),
                         to_array(found.matrix), to_list(found.base_names),

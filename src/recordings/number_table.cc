@@ -325,8 +325,8 @@ JointRecording read_table_recording(const RecordingDescription& description,
   }
   for (std::size_t k = 0; k < found.signals.size(); ++k)
     recording.signals.push_back(
-        {found.signals[k].signal, scaled(std::move(columns.values[1 + found.columns.size() + k]),
-                                         found.signals[k].column)});
+        {found.signals[k].signal,
+         scaled(std::move(columns.values[1 + found.columns.size() + k]), found.signals[k].column)});
   return recording;
 }
 

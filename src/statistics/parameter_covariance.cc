@@ -25,14 +25,15 @@ constexpr Eigen::Index kSums = 500;
 // More pieces than parameters, without which the sums over pieces do not tell a variance.
 constexpr Eigen::Index kLeastDegrees = 3;
 
+// Fewer pieces do not tell how their contributions are correlated from one to the next.
+constexpr Eigen::Index kPiecesOfKernel = 20;
 // Of one: what a piece leaves at least of a direction of the parameters to the other pieces. One
 // that alone determines a direction has no residual along it.
 constexpr double kLeastLeft = 0.01;
 
-/// L with L L^T = (J^T J)^-1, p x rank, with rows of zeros for the parameters that depend on others:
-/// these are held fixed while the others are determined.
-Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& R,
-                                         const Identifiability& identifiability) {
+/// L with L L^T = (J^T J)^-1, p x rank, with rows of zeros for the parameters that depend on
+/// others: these are held fixed while the others are determined.
+Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& R, const Identifiability& identifiability) {
   const Eigen::Index p = R.cols();
   const auto& dependent = identifiability.dependent;
   std::vector<int> independent;
@@ -73,8 +74,8 @@ Eigen::MatrixXd contributions_of_pieces(const Eigen::MatrixXd& residuals,
       scores += rows.transpose() * residuals.col(output).segment(begin, pieces[piece]);
     }
     const SymmetricEigen eigen = symmetric_eigen(left);
-    const Eigen::VectorXd told = (eigen.vectors.transpose() * scores)
-                                     .cwiseQuotient(eigen.values.cwiseMax(kLeastLeft));
+    const Eigen::VectorXd told =
+        (eigen.vectors.transpose() * scores).cwiseQuotient(eigen.values.cwiseMax(kLeastLeft));
     result.row(to_signed(piece)) = (root * (eigen.vectors * told)).transpose();
     begin += pieces[piece];
   }
@@ -113,6 +114,13 @@ void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, doub
   set_symmetric_intervals(options.level, result);
 }
 
+void use_independent(const Eigen::MatrixXd& terms, double correction,
+                     const IntervalOptions& options, ParameterCovariance* result) {
+  result->covariance = correction * (terms.transpose() * terms);
+  result->lag = 1;
+  set_symmetric_intervals(options.level, result);
+}
+
 // The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
 // their quantiles.
 void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
@@ -144,9 +152,9 @@ void use_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double
 
 /// Number of pieces of each recording.
 SeriesLengths pieces_of_each(const SeriesLengths& lengths, const SeriesLengths& pieces) {
-  return sums_over(Eigen::MatrixXd(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}),
-                                   0),
-                   lengths, pieces)
+  return sums_over(
+             Eigen::MatrixXd(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}), 0),
+             lengths, pieces)
       .lengths;
 }
 
@@ -155,11 +163,15 @@ void use_pieces(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobia
                 const Eigen::MatrixXd& root, const SeriesLengths& lengths,
                 const SeriesLengths& pieces, const IntervalOptions& options,
                 ParameterCovariance* result) {
-  const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
   const auto count = static_cast<double>(pieces.size());
+  const Eigen::MatrixXd terms = contributions_of_pieces(residuals, jacobian, root, pieces);
   result->degrees = count - 1.0;
-  use(contributions_of_pieces(residuals, jacobian, root, pieces), pieces_of_each(lengths, pieces),
-      (count - 1.0) / count, options, result);
+  if (options.noise == NoiseModel::kBootstrap)
+    use_bootstrap(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
+  else if (to_signed(pieces.size()) >= kPiecesOfKernel)
+    use_kernel(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
+  else
+    use_independent(terms, result->degrees / count, options, result);
   result->lag = in_times(result->lag, residuals.rows(), to_signed(pieces.size()));
 }
 

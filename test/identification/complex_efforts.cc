@@ -34,8 +34,8 @@ Eigen::VectorXcd ComplexEfforts::operator()(const Eigen::VectorXcd& rho_and_shif
   return efforts;
 }
 
-// The corrections end where the complex equations hold, whatever matrix leads there: the real one at
-// the first state serves all.
+// The corrections end where the complex equations hold, whatever matrix leads there: the real one
+// at the first state serves all.
 Eigen::VectorXcd ComplexEfforts::solve(const Eigen::VectorXcd& right) {
   if (!lu_) {
     equations_.linearize(state_, &derivatives_);

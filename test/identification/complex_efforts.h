@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <optional>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "assembly/driven_motion.h"

@@ -19,7 +19,8 @@ SignalSamples signal_samples(const std::string& signal, std::vector<double> valu
 }
 
 /// The arm of SwingingRig with its mass and the distance of its centre as parameters.
-constexpr const char* kSensedArm = R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
+constexpr const char* kSensedArm =
+    R"(<robot name="arm" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="mass" value="1.5"/><codesign:parameter name="reach" value="0.4"/>
   <codesign:parameter name="inertia" value="0.1"/><codesign:parameter name="bias" value="0"/>
   <link name="base"/>
@@ -31,11 +32,11 @@ constexpr const char* kSensedArm = R"(<robot name="arm" xmlns:codesign="https://
 </robot>)";
 
 Problem sensed_arm(const std::string& more = "") {
-  return load_problem({"arm.urdf", kSensedArm}, {},
-                      {"study.yaml", "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 0" +
-                                         more +
-                                         "}\nparameters: {mass: {}, reach: {}, inertia: {}, bias: "
-                                         "{}}\noptimizer: {relative_tolerance: 1.0e-12}\n"});
+  return load_problem(
+      {"arm.urdf", kSensedArm}, {},
+      {"study.yaml", "identify:\n  data: [{csv: data.csv}]\n  filter: {cutoff: 0" + more +
+                         "}\nparameters: {mass: {}, reach: {}, inertia: {}, bias: "
+                         "{}}\noptimizer: {relative_tolerance: 1.0e-12}\n"});
 }
 
 /// What a sensor in the hinge shows, by Newton's law of a mass of 2 kg at 0.5 m: towards the axis,
@@ -74,18 +75,17 @@ TEST(RecordedSignals, ForcesOfAHingeTellTheFirstMoment) {
   const IdentificationResult result = identify(sensed_arm(), recordings, {}, nullptr);
   expect_sensed(result, false);
   EXPECT_NEAR(result.numbers[0].value * result.numbers[1].value, 1.0, 1e-4);
-  EXPECT_NEAR(9.81 * result.numbers[0].value + result.numbers[3].value, 2.0 * 9.81 + 0.7,
-              1e-3);
+  EXPECT_NEAR(9.81 * result.numbers[0].value + result.numbers[3].value, 2.0 * 9.81 + 0.7, 1e-3);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
 }
 
 TEST(RecordedSignals, StandBesideEfforts) {
   StudyRecordings recordings;
   recordings.data = {on_a_plate(true)};
-  const IdentificationResult result = identify(sensed_arm(", residual_cutoff: 20"), recordings, {}, nullptr);
+  const IdentificationResult result =
+      identify(sensed_arm(", residual_cutoff: 20"), recordings, {}, nullptr);
   expect_sensed(result, true);
-  for (const OutputFit& fit : result.data)
-    EXPECT_LT(fit.rms, 2e-3 * fit.recorded) << fit.joint;
+  for (const OutputFit& fit : result.data) EXPECT_LT(fit.rms, 2e-3 * fit.recorded) << fit.joint;
 }
 
 TEST(RecordedSignals, OthersInOneRecordingAreRefused) {
@@ -131,7 +131,8 @@ TEST(RecordedSignals, SlopesAreThoseOfDifferences) {
 }
 
 /// A four-bar linkage whose crank is driven: positions of its other links follow its lengths.
-constexpr const char* kSensedBars = R"(<robot name="bars" xmlns:codesign="https://mechanism-codesign.org">
+constexpr const char* kSensedBars =
+    R"(<robot name="bars" xmlns:codesign="https://mechanism-codesign.org">
   <codesign:parameter name="length" value="0.8" lower="0.5" upper="1.5"/>
   <codesign:parameter name="mass" value="1" lower="0.1" upper="5"/>
   <link name="base"/>
@@ -163,9 +164,9 @@ TEST(RecordedSignals, SlopesOfALoopWhoseLengthIsTuned) {
   }
   recording.joints = {drive};
   const std::vector<double> none(recording.times.size(), 0.0);
-  for (const char* signal : {"coupler/position/y", "rocker/angular_velocity/z",
-                             "coupler/imu_acceleration/x", "pin/reaction_force/x",
-                             "pivot/reaction_force/y", "mechanism/shaking_force/x"})
+  for (const char* signal :
+       {"coupler/position/y", "rocker/angular_velocity/z", "coupler/imu_acceleration/x",
+        "pin/reaction_force/x", "pivot/reaction_force/y", "mechanism/shaking_force/x"})
     recording.signals.push_back(signal_samples(signal, none));
   expect_signal_slopes(problem, recording, 2e-6);
 }
@@ -197,10 +198,9 @@ TEST(RecordedSignals, AnImuInMotion) {
     recording.signals.push_back(signal_samples(names[k + 1], values[k]));
   StudyRecordings recordings;
   recordings.data = {recording};
-  const IdentificationResult result =
-      identify(motion_problem(servo, "  filter: {cutoff: 20.0}\n",
-                              "inertia: {}, viscous: {}, dry: {}"),
-               recordings, {}, nullptr);
+  const IdentificationResult result = identify(
+      motion_problem(servo, "  filter: {cutoff: 20.0}\n", "inertia: {}, viscous: {}, dry: {}"),
+      recordings, {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   ASSERT_EQ(result.data.size(), 3U);
   EXPECT_EQ(result.data[1].joint, "bar/imu_acceleration/x");

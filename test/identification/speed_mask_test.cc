@@ -16,13 +16,15 @@ constexpr double kMoving = 1.0, kResting = 0.6;  // [s] of each in turn
 
 /// The fraction of a second of moving within time t, and whether the joint moves there.
 double moved_at(double t, bool* moves) {
-  const double cycle = std::floor(t / (kMoving + kResting)), within = t - cycle * (kMoving + kResting);
+  const double cycle = std::floor(t / (kMoving + kResting)),
+               within = t - cycle * (kMoving + kResting);
   *moves = within < kMoving;
   return cycle * kMoving + std::min(within, kMoving);
 }
 
-/// The arm with inertia 0.3 and viscous 0.4 moves there and back, by a fourth power of a sine, which
-/// begins and ends smoothly, and rests in between; there dry friction takes efforts of any value.
+/// The arm with inertia 0.3 and viscous 0.4 moves there and back, by a fourth power of a sine,
+/// which begins and ends smoothly, and rests in between; there dry friction takes efforts of any
+/// value.
 JointRecording recording_with_rests(double least_speed) {
   constexpr double kPi = 3.14159265358979323846;
   JointRecording recording = SwingingRig().record("identify.data[0]");
@@ -50,7 +52,8 @@ IdentificationResult fit_of_rests(const std::string& filter, double least_speed)
 }
 
 TEST(SpeedMask, RestsDoNotCount) {
-  const IdentificationResult all = fit_of_rests("cutoff: 0", 0.0), moving = fit_of_rests("cutoff: 0", 0.05);
+  const IdentificationResult all = fit_of_rests("cutoff: 0", 0.0),
+                             moving = fit_of_rests("cutoff: 0", 0.05);
   ASSERT_EQ(moving.data.size(), 1U);
   EXPECT_EQ(all.data[0].counted, 1.0);
   EXPECT_NEAR(moving.data[0].counted, kMoving / (kMoving + kResting), 0.15);
@@ -86,7 +89,8 @@ TEST(SpeedMask, DeviationsAreThoseOfTheSamplesThatCount) {
   Eigen::MatrixXd values, slopes;
   ASSERT_TRUE(residuals.evaluate(variables.start(), &values, &slopes).ok());
   for (Eigen::Index k = 0; k < counted.rows(); ++k) {
-    const double speed = std::abs(recordings[0].joints[0].velocity[static_cast<std::size_t>(k) + 4]);
+    const double speed =
+        std::abs(recordings[0].joints[0].velocity[static_cast<std::size_t>(k) + 4]);
     EXPECT_EQ(counted(k, 0), speed < 0.05 ? 0.0 : 1.0);
     if (counted(k, 0) != 0.0) continue;
     EXPECT_EQ(values(k, 0), 0.0);

@@ -70,8 +70,8 @@ std::vector<SignalDescription> require_same_signals(const std::vector<JointRecor
                     [](const SignalSamples& one, const SignalDescription& same) {
                       return one.signal.text == same.text;
                     }))
-      throw recording_error(other, "the recording has other signals than " +
-                                       recordings.front().element,
+      throw recording_error(other,
+                            "the recording has other signals than " + recordings.front().element,
                             std::to_string(other.signals.size()) + " signals",
                             "the same signals in all recordings, in the same order");
   return signals;

@@ -212,8 +212,7 @@ Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::Matri
     throw std::logic_error("EffortModel::begin() must succeed before evaluate()");
   efforts->resize(outputs(), samples());
   if (jacobian != nullptr)
-    jacobian->resize(outputs() * samples(),
-                     this->parameters() + to_signed(shifted_drives_.size()));
+    jacobian->resize(outputs() * samples(), this->parameters() + to_signed(shifted_drives_.size()));
   const int blocks = (samples() + kBlock - 1) / kBlock;
   std::vector<Failure> failures(to_index(blocks));
   if (Status status = prepare(parameters, workers_.front().get()); !status.ok()) return status;

@@ -25,8 +25,8 @@ class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
   /// @param joints the joints of the recordings whose motion counts, as require_same_joints()
-  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system(), and
-  /// for a joint that is hardly ever as fast as its samples must be
+  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system(),
+  /// and for a joint that is hardly ever as fast as its samples must be
   EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
                   std::vector<MeasuredJoint> joints, std::vector<MeasuredMotion> recordings,
                   const FilterOptions& filter, int threads,

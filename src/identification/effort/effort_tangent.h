@@ -34,8 +34,8 @@ class EffortTangent {
   void reset_pivots() { equations_.equations().compiled().use_first_variant(); }
 
   /// @param motion with the design of set_design() and linearized at `state`, its solution.
-  /// @param jacobian the rows from first_row on get the derivatives in the columns of the lanes: one
-  /// for each drive, then one for each watched signal.
+  /// @param jacobian the rows from first_row on get the derivatives in the columns of the lanes:
+  /// one for each drive, then one for each watched signal.
   void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row,
                      RowJacobian* jacobian);
 

@@ -51,13 +51,13 @@ struct OutputFit {
   double explained = 0.0;
   double counted = 1.0;    ///< share of the samples that count, above the speed of a mask
   bool is_signal = false;  ///< a recorded signal of the model
-  Whiteness whiteness;  ///< of the residuals after the fit
+  Whiteness whiteness;     ///< of the residuals after the fit
 };
 
 /// Recorded and computed outputs of several recordings; efforts filtered like the residuals.
 struct FittedSeries {
-  SeriesLengths lengths;               ///< rows of each recording
-  std::vector<double> times;           ///< one per row [s]
+  SeriesLengths lengths;      ///< rows of each recording
+  std::vector<double> times;  ///< one per row [s]
   /// rows x outputs; NaN is computed where a sample does not count
   Eigen::MatrixXd recorded, computed;
 };

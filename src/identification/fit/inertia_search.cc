@@ -139,9 +139,9 @@ class InertiaSearch {
         (std::sqrt(damping_) * local.norms.cwiseMax(largest > 0.0 ? 1e-8 * largest : 1.0))
             .asDiagonal();
     const InertiaStep step(local.gradient, local.root, local.blocks, local.lower, local.upper);
-    *predicted =
-        step.decrease() + (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm() +
-        best_.inner_decrease;
+    *predicted = step.decrease() +
+                 (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm() +
+                 best_.inner_decrease;
     return moved(local, step);
   }
 

@@ -299,7 +299,8 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
   for (int pass = 0; pass < kMostPasses; ++pass) {
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
-    const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, counted, rms_at_start);
+    const Eigen::VectorXd spreads =
+        spreads_above(fit.residuals, problem.loss, counted, rms_at_start);
     const bool are_spreads_settled =
         ((spreads - fit.spreads).array().abs() <=
          spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
@@ -342,9 +343,8 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
     ends.push_back(scaled(problem, searches->starts.back().rho));
     const bool is_better =
         fit.residuals.size() > 0 &&
-        (best.residuals.size() == 0 ||
-         mean_spread(fit.residuals, problem.loss, counted) <
-             mean_spread(best.residuals, problem.loss, counted));
+        (best.residuals.size() == 0 || mean_spread(fit.residuals, problem.loss, counted) <
+                                           mean_spread(best.residuals, problem.loss, counted));
     if (fit.status.code == StatusCode::kCancelled) interruption = fit.status;
     if (is_better || best.residuals.size() == 0) best = std::move(fit);
     if (!interruption.ok()) break;

@@ -120,8 +120,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     efforts_.emplace_back();
     for (const MotionOutput& output : outputs) {
       std::optional<RecordedEffort>& effort = efforts_.back().emplace_back();
-      if (output.is_effort())
-        effort.emplace(times, recording.find(output.joint)->effort);
+      if (output.is_effort()) effort.emplace(times, recording.find(output.joint)->effort);
     }
     const Eigen::Index begin = rows;
     for (std::size_t k = 0; k < segments_.back().size(); ++k) {

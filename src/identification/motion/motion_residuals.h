@@ -100,7 +100,7 @@ class MotionResiduals final : public RecordingResiduals {
   LossOptions loss_;
   Eigen::VectorXd spreads_;
   std::vector<std::string> independent_, names_;
-  std::size_t signals_ = 0;  ///< among the outputs
+  std::size_t signals_ = 0;             ///< among the outputs
   std::vector<SegmentSystem> systems_;  ///< per recording
   /// [recording][output], of efforts
   std::vector<std::vector<std::optional<RecordedEffort>>> efforts_;

@@ -157,10 +157,9 @@ void refuse_sampled(const Study& study) {
 
 const std::vector<double>& MotionOutput::recorded(const JointRecording& in) const {
   if (!signal) return in.find(joint)->of(quantity);
-  return std::find_if(in.signals.begin(), in.signals.end(),
-                      [this](const SignalSamples& samples) {
-                        return samples.signal.text == signal->text;
-                      })
+  return std::find_if(
+             in.signals.begin(), in.signals.end(),
+             [this](const SignalSamples& samples) { return samples.signal.text == signal->text; })
       ->values;
 }
 

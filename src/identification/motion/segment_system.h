@@ -16,7 +16,8 @@
 
 namespace codesign {
 
-/// A recorded quantity of a joint, or a recorded signal, that is compared with the simulated motion.
+/// A recorded quantity of a joint, or a recorded signal, that is compared with the simulated
+/// motion.
 struct MotionOutput {
   std::string joint;
   MeasuredQuantity quantity = MeasuredQuantity::kPosition;

@@ -211,9 +211,8 @@ Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem
   for (std::size_t output = 0; output < of.outputs.size(); ++output) {
     const MotionOutput& at = of.outputs[output];
     const std::vector<double>& column = at.recorded(recording);
-    const double scale = at.is_effort()
-                             ? variables.sensor(at.joint, variables.start()).start_scale
-                             : 1.0;
+    const double scale =
+        at.is_effort() ? variables.sensor(at.joint, variables.start()).start_scale : 1.0;
     for (std::size_t k = 0; k < samples.size(); ++k)
       recorded(to_signed(k), to_signed(output)) = scale * column[samples[k]];
   }
