@@ -172,8 +172,8 @@ class SemidefiniteReference {
 
   Eigen::VectorXd solve(Eigen::VectorXd u) const {
     double mu = 1e3;
-    for (int fall = 0; fall < 13; ++fall) {
-      mu *= 0.2;
+    for (int fall = 0; fall < 8; ++fall) {
+      mu *= 0.1;
       for (int k = 0; k < 100; ++k) {
         Eigen::MatrixXd H = H_;
         Eigen::VectorXd slope = H_ * u + g_;
