@@ -134,7 +134,7 @@ add_test(NAME layering_self_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_D
 
 if(TARGET codesign_python)
   add_dependencies(tests codesign_python)
-  foreach(part package problem loops observers jobs interruption notebook tutorial features)
+  foreach(part package problem loops observers jobs recordings interruption notebook tutorial features)
     add_test(NAME python_${part} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/${part}_test.py)
     set_tests_properties(python_${part} PROPERTIES
       ENVIRONMENT "PYTHONPATH=${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages;CODESIGN=$<TARGET_FILE:codesign>")

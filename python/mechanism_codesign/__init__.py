@@ -26,9 +26,12 @@ if _TYPE_CHECKING:
     from ._linear import TransferFunction as TransferFunction
     from ._problem import Parameter as Parameter
     from ._problem import Problem as Problem
+    from ._recording import Recording as Recording
+    from ._results import BaseParameter as BaseParameter
     from ._results import Fit as Fit
     from ._results import FitTrial as FitTrial
     from ._results import Number as Number
+    from ._results import Regressor as Regressor
     from ._results import Result as Result
     from ._results import Run as Run
     from ._results import Stage as Stage
@@ -40,8 +43,8 @@ if _TYPE_CHECKING:
 _MODULES = {
     "case": "_cases", "version": "_core", "Problem": "_problem", "Parameter": "_problem",
     "ComputationError": "_errors", "InputError": "_errors", "OutputError": "_errors", "Status": "_errors", "Warning": "_errors",
-    "Linearization": "_linear", "TransferFunction": "_linear",
-    "Fit": "_results", "FitTrial": "_results", "Number": "_results", "Result": "_results", "Run": "_results", "Stage": "_results", "Trial": "_results",
+    "Linearization": "_linear", "Recording": "_recording", "TransferFunction": "_linear",
+    "BaseParameter": "_results", "Fit": "_results", "FitTrial": "_results", "Number": "_results", "Regressor": "_results", "Result": "_results", "Run": "_results", "Stage": "_results", "Trial": "_results",
     "Tradeoff": "_tradeoff", "TradeoffPoint": "_tradeoff",
 }
 __all__ = sorted(_MODULES)

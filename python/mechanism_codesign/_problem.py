@@ -12,12 +12,12 @@ import numpy.typing as npt
 from . import _core, _notebook
 from ._errors import ComputationError, Status, Warning
 from ._linear import Linearization
-from ._results import Fit, FitTrial, Result, Run, Stage, Trial
+from ._recording import Columns, Recording
+from ._results import Fit, FitTrial, Regressor, Result, Run, Stage, Trial
 from ._tradeoff import Tradeoff, TradeoffPoint
 
 Array = npt.NDArray[np.float64]
 Source = Union[str, "os.PathLike[str]"]
-Columns = Union[npt.ArrayLike, Mapping[str, npt.ArrayLike]]
 
 
 class Event(Protocol):
@@ -263,16 +263,17 @@ class Problem:
 
         return Tradeoff(self._core.tradeoff(0 if points is None else points, None if progress is None else tell, _event(cancel)))
 
-    def identify(self, time: Optional[npt.ArrayLike] = None, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
-                 velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None, evaluate: bool = False,
+    def identify(self, time: Union[npt.ArrayLike, Recording, Sequence[Recording], None] = None, position: Optional[Columns] = None,
+                 effort: Optional[Columns] = None, *, velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,
+                 holdout: Union[Recording, Sequence[Recording]] = (), evaluate: bool = False,
                  progress: Optional[Callable[[FitTrial], object]] = None, cancel: Optional[Event] = None) -> Fit:
         """Fits the tuned parameters to a recorded motion: `codesign identify` with arrays in place of files.
 
-        time: shape (n,), ascending [s]. position, velocity, effort: {joint: array of shape (n,)}, a table with such columns, such as a
-        pandas.DataFrame, or one array of shape (n,) or (n, k) for the k `joints` (by default all joints with one coordinate) [rad or m,
-        per s, N m or N]; at least positions or velocities. The
-        block `identify:` of the study, which may be missing, says how; the recordings that it names are not read. Without arrays they
-        are.
+        time: of one recording, shape (n,), ascending [s]; or a Recording, or several. position, velocity, effort, joints: of the one
+        recording, as Recording takes them. The block `identify:` of the study, which may be missing, says how; the recordings that it
+        names are not read. Without arrays they are.
+
+        holdout: recordings by which the fit is judged, and which it does not see.
 
         evaluate: fit nothing; the result has residuals, shares and doubts of the model as it stands, `codesign identify --evaluate`.
 
@@ -280,16 +281,36 @@ class Problem:
         """
         if time is None and not (position is None and velocity is None and effort is None):
             raise TypeError("identify() with arrays needs their times")
-        names = list(joints if joints is not None else self.joints)
-        sides = [_columns(values, names, what) for values, what in ((position, "position"), (velocity, "velocity"), (effort, "effort"))]
-        measured = [joint for joint in {**sides[0], **sides[1], **sides[2]}]
-        table = [(joint, *(side.get(joint) for side in sides)) for joint in measured]
+        data = [] if time is None else _recordings(time, (position, velocity, effort, joints))
+        apart = [holdout] if isinstance(holdout, Recording) else list(holdout)
+        if apart and not data and not evaluate:
+            raise TypeError("identify() with a holdout of arrays needs recordings of arrays")
+        named = ["arrays"] if len(data) == 1 and not apart else [f"recordings[{k}]" for k in range(len(data))]
+        tables = [each._table(name, self.joints) for name, each in zip(named, data)]  # pylint: disable=protected-access
+        others = [each._table(f"holdout[{k}]", self.joints) for k, each in enumerate(apart)]  # pylint: disable=protected-access
 
         def tell(line: str, fields: Dict[str, Any]) -> None:
             assert progress is not None
             progress(FitTrial(line, **fields))
 
-        return Fit(self._core.identify(time, table, not evaluate, None if progress is None else tell, _event(cancel)))
+        return Fit(self._core.identify(tables if data or apart else None, others, not evaluate, None if progress is None else tell, _event(cancel)))
+
+    def regressor(self, time: Union[npt.ArrayLike, Recording, Sequence[Recording]], position: Optional[Columns] = None, *,
+                  velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None, rho: Optional[npt.ArrayLike] = None,
+                  **parameters: float) -> Regressor:
+        """The derivatives of the efforts that a recorded motion needs by the tuned parameters, and its base parameters.
+
+        time, position, velocity, joints: as in identify(); efforts need not be recorded. The filter of the block `identify:` counts as
+        in a fit: without one, accelerations are differences of the samples.
+
+        Raises ComputationError if the efforts cannot be computed.
+        """
+        tables = [each._table(f"recordings[{k}]", self.joints)  # pylint: disable=protected-access
+                  for k, each in enumerate(_recordings(time, (position, velocity, None, joints)))]
+        failure, *found = self._core.regressor(tables, rho, parameters)
+        if failure is not None:
+            raise ComputationError(Status(**failure))
+        return Regressor(*found)
 
     def __repr__(self) -> str:
         return f"<Problem {self._core.name}: {_notebook.extent(*self._core.extent)}, {len(self.names)} tuned parameters>"
@@ -304,19 +325,12 @@ def _event(cancel: Optional[Event]) -> Optional[Event]:
     return cancel
 
 
-def _columns(values: Optional[Columns], joints: Sequence[str], what: str) -> Mapping[str, npt.ArrayLike]:
-    """An array for each joint."""
-    if values is None:
-        return {}
-    if isinstance(values, Mapping):
-        return values
-    table: Any = values
-    if hasattr(table, "columns"):  # by their names, whatever their order
-        return {joint: table[joint] for joint in table.columns}
-    array = np.asanyarray(values)
-    if array.ndim == 1:
-        array = array[:, np.newaxis]
-    if array.ndim != 2 or array.shape[1] != len(joints):
-        raise ValueError(f"{what} has the shape {np.shape(values)}: (n, {len(joints)}) is needed for the joints {', '.join(joints)}; "
-                         f"joints= chooses others, and a dictionary names them")
-    return dict(zip(joints, array.T))
+def _recordings(time: Union[npt.ArrayLike, Recording, Sequence[Recording]], given: Tuple[Any, ...]) -> List[Recording]:
+    """The recordings that a call is about. given: position, velocity, effort and joints."""
+    position, velocity, effort, joints = given
+    several: Any = [time] if isinstance(time, Recording) else time
+    if isinstance(several, (list, tuple)) and several and all(isinstance(each, Recording) for each in several):
+        if not all(each is None for each in given):
+            raise TypeError("a Recording takes no columns beside it")
+        return list(several)
+    return [Recording(several, position, effort, velocity=velocity, joints=joints)]

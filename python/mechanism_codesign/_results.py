@@ -288,10 +288,23 @@ class Number(NamedTuple):
     on_bound: bool
 
 
+class BaseParameter(NamedTuple):
+    """A combination of numbers that the data determine.
+
+    value, deviation: in SI units.
+    interval: (lower, upper) at the level of `identify.intervals`.
+    """
+
+    value: float
+    deviation: float
+    interval: Tuple[float, float]
+
+
 class Fit(_Job):
     """The numbers that were identified, and how well they are known.
 
     numbers: Number by name, k of them, in the order of `covariance`.
+    base: BaseParameter by expression, of the numbers that the data do not determine each; free inertias by mass and moments.
     parameters: every named parameter with its value in the fit, in SI units.
     covariance: of the numbers, shape (k, k) [product of their units].
     time: of the n fitted samples, shape (n,) [s].
@@ -305,6 +318,9 @@ class Fit(_Job):
             name: Number(entry["value"], entry["start"], entry["unit"], entry["deviation"],
                          None if entry["interval"] is None else (entry["interval"][0], entry["interval"][1]), entry["determined"], entry["on_bound"])
             for name, entry in self.record.get("identified", {}).items()}
+        self.base: Dict[str, BaseParameter] = {
+            entry["expression"]: BaseParameter(entry["value"], entry["deviation"], (entry["interval"][0], entry["interval"][1]))
+            for entry in self.record.get("combinations", [])}
         self.parameters: Dict[str, float] = self.record.get("parameters", {})
         self.covariance: Array = core.covariance
         self.time: Array = core.time
@@ -329,3 +345,41 @@ class Fit(_Job):
 
     def _repr_html_(self) -> str:
         return _notebook.fit(self)
+
+
+class Regressor:
+    """The efforts that recorded motions need, as functions of the numbers of an identification, to first order.
+
+    Of numbers in which efforts are linear it is the regressor. Free inertias appear by such numbers: `LINK_m` [kg], `LINK_mx`, `my`, `mz`
+    [kg m] and `LINK_Jxx` ... [kg m2] about the origin of the link.
+
+    outputs: joints whose motion determines all, k of them, then the signals.
+    names, values: of the p numbers, those of the sensors behind those of the model, shape (p,), in SI units.
+    time: of the n rows of all recordings, shape (n,) [s].
+    lengths: rows of each recording.
+    computed: efforts at `values`, shape (n, k) [N m or N].
+    matrix: d effort / d number, shape (n, k, p), in SI units. `regressor[NAME]` is the part of one number, shape (n, k).
+    base_names, base_values: of the b combinations of the numbers that the motion determines, the base parameters, shape (b,), in SI units.
+    base: their columns of the matrix, shape (n, k, b), in SI units: `base @ base_values` is `matrix @ values`.
+    """
+
+    def __init__(self, outputs: List[str], lengths: List[float], time: Array, computed: Array, names: List[str], values: Array,
+                 matrix: Array, base_names: List[str], base_values: Array, base_columns: List[int]):
+        self.outputs = outputs
+        self.lengths = [int(length) for length in lengths]
+        self.time = time
+        self.computed = computed
+        self.names = names
+        self.values = values
+        self.matrix: Array = np.ascontiguousarray(np.moveaxis(matrix.reshape(len(outputs), len(time), len(names)), 0, 1))
+        self.base_names = base_names
+        self.base_values = base_values
+        self.base: Array = self.matrix[:, :, base_columns]
+
+    def __getitem__(self, name: str) -> Array:
+        if name not in self.names:
+            raise KeyError(name)
+        return self.matrix[:, :, self.names.index(name)]
+
+    def __repr__(self) -> str:
+        return f"<Regressor: {len(self.time)} rows of {', '.join(self.outputs)}, {len(self.base_names)} base parameters of {len(self.names)} numbers>"

@@ -163,6 +163,7 @@ const std::map<std::string, Option>& options() {
       {"--samples", {Value::kRequired, {"simulate", "efforts"}, set_samples}},
       {"--verify", {Value::kOptional, {"gradient"}, set_method}},
       {"--evaluate", {Value::kNone, {"identify"}, sets(&Arguments::evaluate)}},
+      {"--compare", {Value::kRequired, {"excite"}, text_into(&Arguments::compare)}},
       {"--against", {Value::kRequired, {"identify"}, text_into(&Arguments::against)}},
       {"--output",
        {Value::kRequired,

@@ -46,6 +46,7 @@ struct Arguments {
   bool each_parameter = false;  ///< gradient; verify each parameter, instead of a few directions
   CheckMethod method = CheckMethod::kComplexStep;
   bool evaluate = false;  ///< identify; judge the model as it stands
+  std::string compare;    ///< excite; a table of a trajectory, empty: none
   std::string against;    ///< identify; an identification.json to compare with, empty: none
   std::string output;     ///< optimize, identify, excite; empty: no files
   bool resume = false;    ///< optimize; continue with the journal in `output`

@@ -89,6 +89,7 @@ const CommandHelp kCommands[] = {
     {"excite",
      R"(  excite MODEL STUDY       a motion within all limits, after whose recording identify knows most
     --output DIR           write trajectory.csv, plain.csv, excitation.json; with ROS trajectory.bag
+    --compare FILE         judge the trajectory of this table, too: columns time, JOINT/position
 )"},
     {"new",
      R"(  new [NAME]               a project of your own, the folder NAME, from a machine of the gallery;

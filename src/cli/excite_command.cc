@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <array>
 #include <filesystem>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 #include "cli/commands.h"
@@ -14,7 +16,10 @@
 #include "jobs/job_files.h"
 #include "jobs/json.h"
 #include "jobs/recording_records.h"
+#include "math/arrays.h"
 #include "problem/load_problem.h"
+#include "recordings/number_table.h"
+#include "recordings/recording_check.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
@@ -36,14 +41,71 @@ void print_excitation_trial(const ExcitationTrial& trial, std::ostream& err) {
     err << "failed, " << describe(trial.status) << std::endl;
 }
 
+/// A line of a table of predictions: the values with the plain trajectory and with that found, and
+/// with a given one if there is one.
+std::vector<std::string> prediction_line(std::vector<std::string> cells, double before,
+                                         double after, const ComparedTrajectory* compared,
+                                         const Eigen::VectorXd ComparedTrajectory::*values,
+                                         std::size_t k) {
+  cells.push_back(readable(before, kIntervalDigits));
+  if (compared) cells.push_back(readable((compared->*values)[to_signed(k)], kIntervalDigits));
+  cells.push_back(readable(after, kIntervalDigits));
+  return cells;
+}
+
+const ComparedTrajectory* judged(const ExcitationResult& result) {
+  return result.compared && result.compared->status.ok() ? &*result.compared : nullptr;
+}
+
 void print_predictions(const ExcitationResult& result, double level, std::ostream& out) {
+  const ComparedTrajectory* compared = judged(result);
   Table table;
-  table.add({"number", "nominal", readable(100.0 * level) + " % +-, plain", "+-, found", "note"});
-  for (const PredictedNumber& number : result.numbers)
-    table.add({number.name, readable(number.nominal), readable(number.half_before, kIntervalDigits),
-               readable(number.half, kIntervalDigits),
-               number.is_determined ? "" : "not identifiable"});
+  std::vector<std::string> head{"number", "nominal", readable(100.0 * level) + " % +-, plain"};
+  if (compared) head.emplace_back("+-, compared");
+  head.insert(head.end(), {"+-, found", "note"});
+  table.add(head);
+  for (std::size_t k = 0; k < result.numbers.size(); ++k) {
+    const PredictedNumber& number = result.numbers[k];
+    std::vector<std::string> line =
+        prediction_line({number.name, readable(number.nominal)}, number.half_before, number.half,
+                        compared, &ComparedTrajectory::halves, k);
+    line.emplace_back(number.is_determined ? "" : "not identifiable");
+    table.add(line);
+  }
   table.print(out);
+}
+
+/// Expressions that are longer than a line stand in the JSON.
+void print_base(const ExcitationResult& result, std::ostream& out) {
+  constexpr std::size_t kLongest = 80;
+  if (result.base.empty()) return;
+  const ComparedTrajectory* compared = judged(result);
+  Table table;
+  std::vector<std::string> head{"deviation, plain"};
+  if (compared) head.emplace_back("compared");
+  head.insert(head.end(), {"found", "base parameter"});
+  table.add(head);
+  for (std::size_t k = 0; k < result.base.size(); ++k) {
+    const PredictedBase& base = result.base[k];
+    std::vector<std::string> line = prediction_line({}, base.deviation_before, base.deviation,
+                                                    compared, &ComparedTrajectory::base, k);
+    line.push_back(base.expression.size() <= kLongest
+                       ? base.expression
+                       : base.expression.substr(0, kLongest - 4) + " ...");
+    table.add(line);
+  }
+  table.print(out);
+}
+
+void print_condition(const ExcitationResult& result, std::ostream& out) {
+  out << "condition number: plain " << readable(result.condition_before, kIntervalDigits);
+  if (const ComparedTrajectory* compared = judged(result))
+    out << ", compared " << readable(compared->condition, kIntervalDigits) << " ("
+        << compared->samples << " samples at " << readable(compared->rate) << " Hz)";
+  out << ", found " << readable(result.condition, kIntervalDigits) << '\n';
+  if (result.compared && !result.compared->status.ok())
+    out << "the compared trajectory cannot be followed: " << describe(result.compared->status)
+        << '\n';
 }
 
 void print_limits(const ExcitationResult& result, std::ostream& out) {
@@ -57,7 +119,9 @@ void print_limits(const ExcitationResult& result, std::ostream& out) {
 
 void print_excitation(const Problem& problem, const ExcitationResult& result, std::ostream& out) {
   for (const std::string& sentence : excitation_sentences(result)) out << sentence << '\n';
+  print_condition(result, out);
   print_predictions(result, study_of(problem).identification->intervals.level, out);
+  print_base(result, out);
   print_limits(result, out);
   out << result.termination << " after " << result.starts.size() << " searches, "
       << result.evaluations << " evaluations, " << readable(result.cpu_seconds)
@@ -70,6 +134,21 @@ Problem load_excitable(const Arguments& arguments, const Console& console) {
     throw InputError(
         {{arguments.study, 1}, "excite", "the study has no joints to move", "", "a block excite"});
   return problem;
+}
+
+/// The trajectory of --compare. @throws InputError
+std::optional<JointRecording> read_compared(const Arguments& arguments, const Problem& problem) {
+  if (arguments.compare.empty()) return std::nullopt;
+  RecordingDescription description;
+  description.file = arguments.compare;
+  description.element = "--compare";
+  description.where = {arguments.compare, 0};
+  std::vector<std::string> joints;
+  for (const JointDescription& joint : robot_of(problem).joints)
+    if (joint.has_one_coordinate()) joints.push_back(joint.name);
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  return checked_part(read_table_recording(description, arguments.compare, joints), -kInfinite,
+                      kInfinite);
 }
 
 std::string trajectory_text(const TrajectoryPoints& points) {
@@ -114,12 +193,14 @@ int excite(const Arguments& arguments, const Console& console) {
     require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile},
                         "--output", problem);
   }
+  const std::optional<JointRecording> compared = read_compared(arguments, problem);
   LinePace pace;
   const auto observer = [&](const ExcitationTrial& trial) {
     if (pace.admits_now()) print_excitation_trial(trial, progress_of(arguments, console));
     return !console.cancel;
   };
-  const ExcitationResult result = codesign::excite(problem, observer, &console.cancel);
+  const ExcitationResult result =
+      codesign::excite(problem, observer, &console.cancel, compared ? &*compared : nullptr);
   const bool is_found = !result.points.joints.empty();
   if (!arguments.json && is_found) print_excitation(problem, result, console.out);
   Json object = excitation_json(problem, result);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "description/loss_law.h"
+#include "description/signal.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -89,6 +90,19 @@ struct RecordedSetting {
   double value = 0.0;
 };
 
+/// Below which speed of a joint its samples do not count: `mask: {speed: 0.01}`.
+struct SpeedMask {
+  std::string joint;   ///< empty: each joint
+  double speed = 0.0;  ///< [rad/s or m/s], positive
+  SourceLocation where;
+};
+
+/// A column that holds a signal of the model.
+struct SignalColumn {
+  SignalDescription signal;
+  ColumnDescription column;
+};
+
 /// What priors of free inertias are about: `prior: {mass: 0.3}`.
 constexpr std::array<const char*, 3> kFreeInertiaParts{"mass", "centre", "inertia"};
 
@@ -117,7 +131,9 @@ struct RecordingDescription {
   GapRule gaps = GapRule::kRefuse;
   std::vector<StartPosition> starts;      ///< of joints whose positions are integrated
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
-  std::string element;                    ///< `identify.data[0]`
+  std::vector<SpeedMask> masks;
+  std::vector<SignalColumn> signals;  ///< of a table: signals that are compared, too
+  std::string element;                ///< `identify.data[0]`
   SourceLocation where;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,23 @@ struct KeptLimit {
   ScannedSignal reached;
 };
 
+/// A base parameter, with its predicted standard deviation.
+struct PredictedBase {
+  std::string expression;
+  double deviation_before = 0.0, deviation = 0.0;  ///< with the plain trajectory, and that found
+};
+
+/// A trajectory that was given, for comparison: predictions as if it were recorded as it is.
+struct ComparedTrajectory {
+  Status status;  ///< not ok: the mechanism does not follow it; the other members are empty then
+  Eigen::Index samples = 0;
+  double rate = 0.0;                   ///< [Hz]
+  double criterion = 0.0;              ///< (46a)
+  double condition = 0.0;              ///< as ExcitationResult::condition
+  Eigen::VectorXd deviations, halves;  ///< of the numbers
+  Eigen::VectorXd base;                ///< deviations of the base parameters
+};
+
 /// One search.
 struct ExcitationStart {
   double initial_criterion = 0.0, criterion = 0.0;
@@ -45,7 +63,11 @@ struct ExcitationResult {
   std::vector<std::string> undetermined;  ///< sentences about numbers that no trajectory determines
   double criterion_before = 0.0,
          criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine too few numbers
-  int counted = 0;         ///< number of identified numbers, or sums of them, in the criterion
+  /// BasePrecision::Merit::condition of the plain trajectory and of that found
+  double condition_before = 0.0, condition = 0.0;
+  std::vector<PredictedBase> base;  ///< empty if the numbers are the base parameters themselves
+  std::optional<ComparedTrajectory> compared;
+  int counted = 0;  ///< number of identified numbers, or sums of them, in the criterion
   TrajectoryPoints before, points;
   Eigen::VectorXd rest;          ///< positions of the joints at both ends
   Eigen::MatrixXd coefficients;  ///< coefficients of the shapes (45), shapes x joints

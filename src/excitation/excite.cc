@@ -5,16 +5,20 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "assembly/assembly.h"
 #include "description/study.h"
 #include "engine/thread_engine.h"
+#include "excitation/base_precision.h"
+#include "excitation/given_trajectory.h"
 #include "identification/judgement.h"
 #include "math/arrays.h"
 #include "math/cpu_timer.h"
 #include "math/dense.h"
 #include "problem/load_problem.h"
+#include "recordings/measured_motion.h"
 #include "sampling/sampler.h"
 #include "statistics/parameter_covariance.h"
 #include "text/cancel.h"
@@ -58,7 +62,7 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
 class Excitation {
  public:
   Excitation(const Problem& problem, const ExcitationObserver& observer,
-             const std::atomic<bool>* cancel)
+             const std::atomic<bool>* cancel, const JointRecording* compared)
       : problem_(problem),
         description_(*study_of(problem).excitation),
         observer_(observer),
@@ -71,7 +75,10 @@ class Excitation {
         motion_(*system_of(problem), limits_.joints, limits_.followers, problem.parameters(),
                 worker_threads(study_of(problem).ensemble.engine)),
         scan_(space_, limits_, &motion_),
-        probe_(space_, limits_, information_, {}, &motion_) {}
+        probe_(space_, limits_, information_, {}, &motion_) {
+    if (compared)
+      given_ = given_motion(*compared, study_of(problem).identification->filter, limits_.joints);
+  }
 
   ExcitationResult run();
 
@@ -86,6 +93,7 @@ class Excitation {
   void predict_before();
   void set_numbers(const ParameterCovariance& known, double PredictedNumber::*deviation,
                    double PredictedNumber::*half);
+  void compare();
   void conclude();
   Eigen::VectorXd mixed(int k) const { return space_.mixed(numbers_.row(k).transpose()); }
 
@@ -105,6 +113,8 @@ class Excitation {
   Eigen::VectorXd plain_, best_;
   LimitScan::Extremes plain_extremes_, extremes_;
   std::vector<int> told_;
+  BasePrecision base_;
+  std::optional<MeasuredMotion> given_;
   std::vector<bool> is_determined_;
   bool is_rest_decided_ = false;  // by the prior
   bool interrupted_ = false;
@@ -166,6 +176,7 @@ Status Excitation::find_told() {
     stacked = upper_factor(both);
   }
   const Identifiability found = find_identifiable(stacked);
+  base_ = BasePrecision(variables_, stacked);
   for (int column = 0; column < static_cast<int>(variables_.size()); ++column)
     if (std::find(found.dependent.begin(), found.dependent.end(), column) == found.dependent.end())
       told_.push_back(column);
@@ -223,6 +234,10 @@ void Excitation::predict_before() {
   set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation_before,
               &PredictedNumber::half_before);
   result_.criterion_before = information_criterion(J, told_, nullptr);
+  const BasePrecision::Merit merit = base_.of(J);
+  result_.condition_before = merit.condition;
+  for (std::size_t k = 0; base_.has_combinations() && k < base_.names().size(); ++k)
+    result_.base.push_back({base_.names()[k], merit.deviations[to_signed(k)], 0.0});
   best_ = plain_;
   extremes_ = plain_extremes_;
   result_.criterion = result_.criterion_before;
@@ -275,6 +290,29 @@ void Excitation::search_all() {
   }
 }
 
+/// Judges the given trajectory as it is.
+void Excitation::compare() {
+  const DrivePath path = path_of(*given_, limits_.joints);
+  ComparedTrajectory compared;
+  compared.samples = path.samples();
+  compared.rate = given_->times.rate();
+  PathResponse response;
+  compared.status = motion_.begin(path.position.col(0));
+  if (compared.status.ok()) compared.status = motion_.respond(path, true, &response);
+  if (compared.status.ok()) {
+    const Eigen::MatrixXd J = information_.jacobian(response, given_->times.step);
+    const ParameterCovariance known =
+        predicted_covariance(J, J.rows(), study_of(problem_).identification->intervals.level);
+    const BasePrecision::Merit merit = base_.of(J);
+    compared.criterion = information_criterion(J, told_, nullptr);
+    compared.condition = merit.condition;
+    compared.deviations = known.covariance.diagonal().cwiseSqrt();
+    compared.halves = known.above;
+    compared.base = merit.deviations;
+  }
+  result_.compared = std::move(compared);
+}
+
 void Excitation::conclude() {
   motion_.obey(nullptr);
   Eigen::MatrixXd J;
@@ -283,6 +321,11 @@ void Excitation::conclude() {
   const double level = study_of(problem_).identification->intervals.level;
   set_numbers(predicted_covariance(J, J.rows(), level), &PredictedNumber::deviation,
               &PredictedNumber::half);
+  const BasePrecision::Merit merit = base_.of(J);
+  result_.condition = merit.condition;
+  for (std::size_t k = 0; k < result_.base.size(); ++k)
+    result_.base[k].deviation = merit.deviations[to_signed(k)];
+  if (given_) compare();
   result_.rest = space_.rest(best_);
   result_.coefficients = space_.coefficients(best_);
   for (std::size_t s = 0; s < limits_.signals.size(); ++s)
@@ -325,8 +368,8 @@ double ExcitationResult::volume_factor() const {
 }
 
 ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer,
-                        const std::atomic<bool>* cancel) {
-  return Excitation(problem, observer, cancel).run();
+                        const std::atomic<bool>* cancel, const JointRecording* compared) {
+  return Excitation(problem, observer, cancel, compared).run();
 }
 
 }  // namespace codesign

@@ -6,6 +6,7 @@
 #include "excitation/excitation_result.h"
 #include "excitation/trajectory_search.h"
 #include "mechanism_codesign/problem.h"
+#include "recordings/joint_recording.h"
 
 namespace codesign {
 
@@ -15,8 +16,11 @@ namespace codesign {
 /// each evaluation; false ends the search.
 /// @param cancel the search ends soon after it is set, from any thread, with the best trajectory so
 /// far; null: never
-/// @throws InputError as motion_limits() and ExcitedMotion
+/// @param compared a recording or table of a trajectory that is judged beside the one found; null:
+/// none
+/// @throws InputError as motion_limits() and ExcitedMotion, and for a compared trajectory without
+/// positions of an excited joint
 ExcitationResult excite(const Problem& problem, const ExcitationObserver& observer,
-                        const std::atomic<bool>* cancel);
+                        const std::atomic<bool>* cancel, const JointRecording* compared = nullptr);
 
 }  // namespace codesign

@@ -28,7 +28,7 @@ Status evaluate_at(const Eigen::VectorXd& x, const LossOptions& loss, RecordingR
     source->count_by(*spreads, loss);
     status = source->evaluate(x, residuals, nullptr);
     if (status.ok())
-      *spreads = spreads_of(*residuals, loss).unaryExpr([](double spread) {
+      *spreads = spreads_of(*residuals, loss, source->counted()).unaryExpr([](double spread) {
         return spread > 0.0 ? spread : 1.0;
       });
   }

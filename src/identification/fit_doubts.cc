@@ -97,6 +97,7 @@ Warnings unexplained_outputs(const IdentificationDescription& options,
         is_filter ? "at least half; a cutoff above the frequencies of the motion"
         : is_hindered
             ? "at least half; bounds or twins that leave such points out, or another start"
+        : fit.is_signal ? "at least half; the signal in SI units, along the axes that its name says"
         : is_motion
             ? "at least half; positions in rad or m along the axis of the joint, efforts on the "
               "child in N m or N along the same axis, "

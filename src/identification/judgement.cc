@@ -53,8 +53,11 @@ WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& lo
 }
 
 EliminatedUnknowns eliminated_from(const ResidualSource& source) {
-  if (source.own_unknowns() == 0) return {};
-  return {source.own_unknowns(), source.pieces()};
+  const Eigen::MatrixXd counted = source.counted();
+  const Eigen::Index left_out =
+      counted.size() > 0 ? static_cast<Eigen::Index>((counted.array() == 0.0).count()) : 0;
+  if (source.own_unknowns() == 0) return {0, {}, left_out};
+  return {source.own_unknowns(), source.pieces(), left_out};
 }
 
 /// The covariance of the free numbers, by the noise model of `intervals`.
@@ -145,6 +148,35 @@ void release_undetermined(const ResidualFit& fit, const LossOptions& loss,
 
 }  // namespace
 
+namespace {
+
+/// The samples of one output that count, and how many of each recording.
+struct CountedSamples {
+  std::vector<int> rows;
+  SeriesLengths lengths;
+
+  Eigen::VectorXd of(const Eigen::MatrixXd& columns, Eigen::Index output) const {
+    return columns.col(output)(rows);
+  }
+};
+
+CountedSamples counted_samples(const RecordingResiduals& source, const Eigen::MatrixXd& counted,
+                               Eigen::Index output) {
+  CountedSamples samples;
+  Eigen::Index row = 0;
+  for (const Eigen::Index length : source.lengths()) {
+    const std::size_t before = samples.rows.size();
+    for (const Eigen::Index end = row + length; row < end; ++row)
+      if (counted.size() == 0 || counted(row, output) != 0.0)
+        samples.rows.push_back(static_cast<int>(row));
+    if (samples.rows.size() > before)
+      samples.lengths.push_back(to_signed(samples.rows.size() - before));
+  }
+  return samples;
+}
+
+}  // namespace
+
 std::vector<OutputFit> judge_outputs(const RecordingResiduals& source, const Eigen::MatrixXd& start,
                                      const Eigen::MatrixXd& residuals,
                                      const Eigen::VectorXd& spreads, const LossOptions& loss) {
@@ -152,19 +184,24 @@ std::vector<OutputFit> judge_outputs(const RecordingResiduals& source, const Eig
   const Eigen::MatrixXd& recorded = source.recorded();
   const Eigen::MatrixXd variation = source.variation();
   const double least = source.own_unknowns() > 0 ? kLeastOfSegments : kLeastVariation;
+  const Eigen::MatrixXd counted = source.counted();
   for (Eigen::Index k = 0; k < residuals.cols(); ++k) {
+    const CountedSamples samples = counted_samples(source, counted, k);
+    const Eigen::VectorXd left = samples.of(residuals, k), measured = samples.of(recorded, k);
     OutputFit fit;
     fit.joint = source.outputs()[to_index(k)];
-    fit.recorded = rms_of(recorded.col(k));
-    fit.start = rms_of(start.col(k));
-    fit.rms = rms_of(residuals.col(k));
-    fit.worst = residuals.col(k).cwiseAbs().maxCoeff();
-    const Eigen::ArrayXd roots = residuals.col(k).array().unaryExpr(
+    fit.is_signal = k + to_signed(source.signals()) >= residuals.cols();
+    fit.counted = static_cast<double>(left.size()) / static_cast<double>(residuals.rows());
+    fit.recorded = rms_of(measured);
+    fit.start = rms_of(samples.of(start, k));
+    fit.rms = rms_of(left);
+    fit.worst = left.cwiseAbs().maxCoeff();
+    const Eigen::ArrayXd roots = left.array().unaryExpr(
         [&](double r) { return std::sqrt(loss_of(loss, r / spreads[k]).weight); });
     fit.explained =
-        explained_share(roots * recorded.col(k).array(), roots * variation.col(k).array(),
-                        roots * residuals.col(k).array(), least);
-    fit.whiteness = ljung_box(residuals.col(k), source.lengths());
+        explained_share(roots * measured.array(), roots * samples.of(variation, k).array(),
+                        roots * left.array(), least);
+    fit.whiteness = ljung_box(left, samples.lengths);
     fits.push_back(std::move(fit));
   }
   return fits;

@@ -2,6 +2,7 @@
 #include "identification/residuals_of_recordings.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "description/study.h"
@@ -34,7 +35,8 @@ std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
     if (!is_set(cancel)) motions.push_back(measured_motion(recording, filter, warnings));
   if (is_set(cancel)) return nullptr;
   return std::make_unique<EffortResiduals>(*system_of(problem), variables, joints,
-                                           std::move(motions), filter, threads);
+                                           std::move(motions), filter, threads,
+                                           require_same_signals(recordings));
 }
 
 }  // namespace
@@ -67,7 +69,13 @@ std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
 }
 
 FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& residuals) {
-  return {source.lengths(), source.times(), source.recorded(), source.recorded() + residuals};
+  FittedSeries series{source.lengths(), source.times(), source.recorded(),
+                      source.recorded() + residuals};
+  const Eigen::MatrixXd counted = source.counted();
+  for (Eigen::Index k = 0; k < counted.size(); ++k)
+    if (counted.reshaped()[k] == 0.0)
+      series.computed.reshaped()[k] = std::numeric_limits<double>::quiet_NaN();
+  return series;
 }
 
 }  // namespace codesign

@@ -66,7 +66,10 @@ constexpr auto fields_of(const OutputFit*) {
       field("start_rms", &OutputFit::start, "root mean square of the residuals at the start"),
       field("rms", &OutputFit::rms, "at the result"),
       field("worst", &OutputFit::worst, "largest magnitude of the residuals at the result"),
-      field("explained", &OutputFit::explained, "1 - (rms / recorded_rms)^2"));
+      field("explained", &OutputFit::explained, "1 - (rms / recorded_rms)^2"),
+      field("counted", &OutputFit::counted,
+            "share of the samples that count, above the speed of a mask")
+          .finite());
 }
 
 constexpr auto fields_of(const Whiteness*) {

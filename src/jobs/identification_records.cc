@@ -89,6 +89,9 @@ std::string sentence_of(const std::string& set, const OutputFit& fit, bool is_fi
          (is_fitted ? readable(fit.start) + " -> " : "") + readable(fit.rms) + " of " +
          readable(fit.recorded) + " recorded, " +
          readable(100.0 * std::max(0.0, fit.explained), 3) + " % explained" +
+         (fit.counted < 1.0
+              ? " of the " + readable(100.0 * fit.counted, 3) + " % of the samples that count"
+              : "") +
          (fit.whiteness.probability < kWhiteBelow ? "; not white, correlation of neighbours " +
                                                         readable(fit.whiteness.first_correlation, 2)
                                                   : "");

@@ -40,6 +40,22 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
   return object;
 }
 
+Json compared_json(const ExcitationResult& result) {
+  const ComparedTrajectory& compared = *result.compared;
+  Json object = {{"samples", compared.samples}, {"rate", compared.rate}};
+  if (!compared.status.ok()) {
+    object["error"] = to_json(compared.status);
+    return object;
+  }
+  object["volume_factor"] = std::exp(0.5 * (result.criterion_before - compared.criterion));
+  object["condition"] = compared.condition;
+  for (std::size_t k = 0; k < result.numbers.size(); ++k)
+    object["deviations"][result.numbers[k].name] = compared.deviations[to_signed(k)];
+  for (std::size_t k = 0; k < result.base.size(); ++k)
+    object["base"][result.base[k].expression] = compared.base[to_signed(k)];
+  return object;
+}
+
 /// The mean factor of one interval: the root of the factor of the volume over all numbers.
 double factor_of_one(const ExcitationResult& result) {
   return result.counted == 0 ? 1.0 : std::pow(result.volume_factor(), 1.0 / result.counted);
@@ -75,6 +91,11 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   object["volume_factor"] = result.volume_factor();
   object["mean_factor"] = factor_of_one(result);
   object["undetermined"] = result.undetermined;
+  object["condition"] = {{"before", result.condition_before}, {"after", result.condition}};
+  for (const PredictedBase& base : result.base)
+    object["base"][base.expression] = {{"before", base.deviation_before},
+                                       {"after", base.deviation}};
+  if (result.compared) object["compared"] = compared_json(result);
   if (result.points.joints.empty()) return object;
   for (const KeptLimit& limit : result.limits)
     object["limits"][limit.limits.name] = record_json(limit);

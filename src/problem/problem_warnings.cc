@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "control/reference.h"
@@ -17,10 +18,25 @@ namespace {
 // Relative to the value, or to its standard deviation if that is larger.
 constexpr double kEqual = 1e-6;
 
+/// Whether an expression that is compared with a recording reads a parameter.
+bool is_compared(const Study& study, const std::string& name) {
+  if (!study.identification) return false;
+  const auto reads = [&name](const SignalColumn& column) {
+    const SignalFormula* formula = column.signal.formula.get();
+    return formula &&
+           std::find(formula->names.begin(), formula->names.end(), name) != formula->names.end();
+  };
+  for (const auto* list : {&study.identification->data, &study.identification->holdout})
+    for (const RecordingDescription& recording : *list)
+      if (std::any_of(recording.signals.begin(), recording.signals.end(), reads)) return true;
+  return false;
+}
+
 /// Whether a number of the model, the study or the changes of a run depends on a parameter.
 bool is_used(const Study& study, int index) {
   const std::vector<RunDescription>& runs = study.ensemble.runs;
   return study.used_parameters.count(index) > 0 ||
+         is_compared(study, study.parameters[to_index(index)].name) ||
          std::any_of(runs.begin(), runs.end(), [index](const RunDescription& run) {
            return run.study && run.study->used_parameters.count(index) > 0;
          });

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "python/jobs.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
@@ -18,9 +19,12 @@
 #include "jobs/tradeoff_records.h"
 #include "jobs/trial_lines.h"
 #include "math/arrays.h"
+#include "mechanism/signal_catalog.h"
 #include "mechanism_codesign/error.h"
 #include "optimization/search_hooks.h"
 #include "problem/load_problem.h"
+#include "reading/study/study_values.h"
+#include "text/number_text.h"
 
 namespace codesign::python {
 namespace {
@@ -69,8 +73,63 @@ void write_file(const std::string& folder, const std::string& name,
   }
 }
 
-/// The arrays as the one recording of a study.
-StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+/// Values of parameters that the study does not tune, as `set:` of a recording names them.
+std::vector<RecordedSetting> settings_of(const Study& study, const RecordedArrays& arrays) {
+  std::vector<RecordedSetting> settings;
+  for (const auto& [name, value] : arrays.settings) {
+    const std::string element = arrays.element + ".set." + name;
+    const int index = untuned_parameter(name, study, SourceLocation{"arrays", 0}, element);
+    const Parameter& parameter = study.parameters[to_index(index)];
+    if (!(parameter.lower <= value && value <= parameter.upper))
+      throw InputError({{"arrays", 0},
+                        element,
+                        "the value lies outside the bounds of the parameter",
+                        to_decimal(value),
+                        range_of(parameter)});
+    settings.push_back({index, value});
+  }
+  return settings;
+}
+
+std::vector<RecordingDescription> descriptions_of(const Problem& problem,
+                                                  const std::vector<RecordedArrays>& list) {
+  const Study& study = study_of(problem);
+  std::vector<RecordingDescription> descriptions;
+  for (const RecordedArrays& arrays : list) {
+    for (const SignalSamples& samples : arrays.signals)
+      check_signal(samples.signal, robot_of(problem), study.controllers,
+                   arrays.element + ".signals");
+    RecordingDescription& description = descriptions.emplace_back();
+    description.file = "arrays";
+    description.is_bag = true;  // read from memory
+    description.element = arrays.element;
+    description.where = {"arrays", 0};
+    description.settings = settings_of(study, arrays);
+    description.masks = arrays.masks;
+    description.starts = arrays.starts;
+  }
+  return descriptions;
+}
+
+JointRecording recording_of(const RecordingDescription& of, const RecordingArrays& arrays) {
+  const auto is_named = [&of](const RecordedArrays& each) { return each.element == of.element; };
+  auto found = std::find_if(arrays.data.begin(), arrays.data.end(), is_named);
+  if (found == arrays.data.end())
+    found = std::find_if(arrays.holdout.begin(), arrays.holdout.end(), is_named);
+  JointRecording recording;
+  recording.file = of.file;
+  recording.is_given = true;
+  recording.times = found->times;
+  for (std::size_t k = 0; k < found->times.size(); ++k) recording.places.push_back(k + 1);
+  recording.joints = found->joints;
+  recording.signals = found->signals;
+  recording.element = of.element;
+  recording.where = of.where;
+  return recording;
+}
+
+/// The recordings that a study names, or arrays in place of them.
+StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordingArrays>& arrays,
                               Warnings* warnings, const std::atomic<bool>* cancel) {
   const IdentificationDescription& identification = *study_of(problem).identification;
   if (!arrays) {
@@ -80,26 +139,11 @@ StudyRecordings recordings_of(const Problem& problem, const std::optional<Record
                            cancel);
   }
   IdentificationDescription given = identification;
-  RecordingDescription description;
-  description.file = "arrays";
-  description.is_bag = true;  // read by the function below, from memory
-  description.element = "arrays";
-  description.where = {"arrays", 0};
-  given.data = {description};
-  given.holdout.clear();
+  given.data = descriptions_of(problem, arrays->data);
+  given.holdout = descriptions_of(problem, arrays->holdout);
   const auto reader = [&arrays](const RecordingDescription& of, const std::string& /*path*/,
                                 const std::vector<std::string>& /*joints*/,
-                                Warnings* /*warnings*/) {
-    JointRecording recording;
-    recording.file = of.file;
-    recording.is_given = true;
-    recording.times = arrays->times;
-    for (std::size_t k = 0; k < arrays->times.size(); ++k) recording.places.push_back(k + 1);
-    recording.joints = arrays->joints;
-    recording.element = of.element;
-    recording.where = of.where;
-    return recording;
-  };
+                                Warnings* /*warnings*/) { return recording_of(of, *arrays); };
   return load_recordings(given, robot_of(problem), "/", reader, warnings, cancel);
 }
 
@@ -175,7 +219,7 @@ Traded tradeoff(const Problem& problem, int points, const Tell& tell,
   return traded;
 }
 
-Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+Identified identify(const Problem& problem, const std::optional<RecordingArrays>& arrays,
                     bool is_fitted, const Tell& tell, const std::atomic<bool>* cancel) {
   Identified identified{identifiable(problem, arrays.has_value(), is_fitted), {}, {}};
   if (is_fitted)
@@ -197,6 +241,27 @@ Identified identify(const Problem& problem, const std::optional<RecordedArrays>&
   identified.json =
       identification_report(identified.problem, identified.result, identified.result.warnings);
   return identified;
+}
+
+Regressor regressor(const Problem& problem, const RecordingArrays& arrays,
+                    const std::vector<double>& design, const std::atomic<bool>* cancel) {
+  const Problem of = identifiable(problem, true, true);
+  const Study& study = study_of(of);
+  RecordingArrays at = arrays;
+  for (RecordedArrays& recording : at.data)
+    for (std::size_t k = 0; k < design.size(); ++k)
+      if (std::find(study.tuned.begin(), study.tuned.end(), static_cast<int>(k)) ==
+              study.tuned.end() &&
+          design[k] != study.parameters[k].value &&
+          std::none_of(recording.settings.begin(), recording.settings.end(),
+                       [&](const auto& own) { return own.first == study.parameters[k].name; }))
+        recording.settings.emplace_back(study.parameters[k].name, design[k]);
+  const FitVariables variables(study, &robot_of(of));
+  Eigen::VectorXd x = variables.start();
+  for (std::size_t k = 0; k < study.tuned.size(); ++k)
+    x[to_signed(k)] = design[to_index(study.tuned[k])];
+  Warnings known_warnings;
+  return find_regressor(of, x, recordings_of(of, at, &known_warnings, cancel).data, cancel);
 }
 
 std::vector<Failure> write_folder(const Identified& identified, const std::string& folder) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "identification/identify.h"
+#include "identification/regressor.h"
 #include "jobs/files.h"
 #include "jobs/json.h"
 #include "mechanism_codesign/optimization.h"
@@ -49,8 +50,18 @@ Traded tradeoff(const Problem& problem, int points, const Tell& tell,
 
 /// A recording as a program has it.
 struct RecordedArrays {
+  std::string element;  ///< for messages: `recordings[0]`
   std::vector<double> times;
   std::vector<JointSamples> joints;
+  std::vector<SignalSamples> signals;
+  ParameterSettings settings;         ///< values of parameters in this recording
+  std::vector<SpeedMask> masks;       ///< with a joint, or of all joints
+  std::vector<StartPosition> starts;  ///< known ones
+};
+
+/// The recordings of an identification, in place of those that a study names.
+struct RecordingArrays {
+  std::vector<RecordedArrays> data, holdout;
 };
 
 /// A finished identification.
@@ -63,8 +74,13 @@ struct Identified {
 /// `codesign identify`. @param is_fitted false: `--evaluate`. @param arrays in place of the
 /// recordings that the study names; the study may then be without `identify:`. @throws InputError
 /// as the command line
-Identified identify(const Problem& problem, const std::optional<RecordedArrays>& arrays,
+Identified identify(const Problem& problem, const std::optional<RecordingArrays>& arrays,
                     bool is_fitted, const Tell& tell, const std::atomic<bool>* cancel);
+
+/// find_regressor() of recordings. @param design values of all named parameters. @throws InputError
+/// as identify()
+Regressor regressor(const Problem& problem, const RecordingArrays& arrays,
+                    const std::vector<double>& design, const std::atomic<bool>* cancel);
 
 /// Writes the text files that `codesign identify --output` leaves. @throws as above
 std::vector<Failure> write_folder(const Identified& identified, const std::string& folder);

@@ -3,6 +3,7 @@
 // numbers, names and records alone; names, documentation and types of the interface are in
 // python/mechanism_codesign/.
 #include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
 
 #include <algorithm>
 
@@ -23,6 +24,7 @@
 #include "python/interruption.h"
 #include "python/jobs.h"
 #include "python/python_lock.h"
+#include "python/recorded_arrays.h"
 #include "python/session.h"
 #include "reading/urdf/urdf_reader.h"
 
@@ -194,30 +196,22 @@ std::string urdf(const Session& session, const py::object& rho, const py::dict& 
                           std::nullopt, robot_of(problem).laws);
 }
 
-std::optional<RecordedArrays> arrays_of(const py::object& time, const py::list& joints) {
-  if (time.is_none()) return std::nullopt;
-  RecordedArrays arrays;
-  arrays.times = to_numbers(time, "time");
-  for (const py::handle entry : joints) {
-    const auto columns = entry.cast<py::tuple>();
-    JointSamples samples;
-    samples.joint = to_name(columns[0], "joints");
-    for (std::size_t q = 0; q < kMeasuredQuantityNames.size(); ++q) {
-      const py::object values = columns[q + 1];
-      if (values.is_none()) continue;
-      const std::string name = samples.joint + "/" + kMeasuredQuantityNames[q];
-      std::vector<double> numbers = to_numbers(values, name);
-      if (numbers.size() != arrays.times.size())
-        throw InputError({{"arrays", 0},
-                          name,
-                          "there is not one number for each time",
-                          std::to_string(numbers.size()),
-                          std::to_string(arrays.times.size())});
-      samples.of(static_cast<MeasuredQuantity>(q)) = std::move(numbers);
-    }
-    arrays.joints.push_back(std::move(samples));
-  }
-  return arrays;
+/// (failure or None, outputs, lengths, times, computed, names, values, matrix, names of the base
+/// parameters, their values, their columns)
+py::tuple regressor_of(const Session& session, const py::list& data, const py::object& rho,
+                       const py::dict& settings) {
+  const RecordingArrays arrays = arrays_of(data, py::list());
+  const std::vector<double> design = design_of(session, rho, settings);
+  const Regressor found = interruptible([&](const std::atomic<bool>* cancel) {
+    return regressor(session.problem(), arrays, design, cancel);
+  });
+  const auto failure = found.status.ok() ? py::none() : to_python(to_json(found.status));
+  return py::make_tuple(failure, to_list(found.outputs),
+                        py::cast(std::vector<double>(found.lengths.begin(), found.lengths.end())),
+                        py::array_t<double>(found.times.size(), found.times.data()),
+                        to_array(found.computed), to_list(found.names), to_array(found.values),
+                        to_array(found.matrix), to_list(found.base_names),
+                        to_array(found.base_values), py::cast(found.base_columns));
 }
 
 template <class Finished>
@@ -348,9 +342,11 @@ void add_session(py::module_* module) {
                return tradeoff(of.problem(), points, tell, stop);
              });
            })
-      .def("identify", [](const Session& of, const py::object& time, const py::list& columns,
+      .def("regressor", &regressor_of)
+      .def("identify", [](const Session& of, const py::object& data, const py::list& holdout,
                           bool is_fitted, const py::object& progress, const py::object& cancel) {
-        const std::optional<RecordedArrays> arrays = arrays_of(time, columns);
+        std::optional<RecordingArrays> arrays;
+        if (!data.is_none()) arrays = arrays_of(data.cast<py::list>(), holdout);
         return job(progress, cancel, [&](const Tell& tell, const std::atomic<bool>* stop) {
           return identify(of.problem(), arrays, is_fitted, tell, stop);
         });

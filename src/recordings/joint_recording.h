@@ -22,6 +22,8 @@ struct JointSamples {
   /// position at the first time, if velocities are to be integrated
   std::optional<FittedNumber> start = std::nullopt;
   bool is_prescribed = false;  ///< not recorded, but computed from the study's `motion`
+  /// samples at which the joint is slower do not count in its residuals [rad/s or m/s]
+  double least_speed = 0.0;
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition   ? position
@@ -31,6 +33,12 @@ struct JointSamples {
   const std::vector<double>& of(MeasuredQuantity quantity) const {
     return const_cast<JointSamples*>(this)->of(quantity);
   }
+};
+
+/// A measured signal of the model, as an IMU or a force sensor shows it.
+struct SignalSamples {
+  SignalDescription signal;
+  std::vector<double> values;  ///< one per time, in SI units
 };
 
 /// Measurements of several joints at common times. The recordings of load_recordings() have
@@ -43,6 +51,7 @@ struct JointRecording {
   /// one per time: the line of the file, or the number of the topic's message, from 1
   std::vector<std::size_t> places;
   std::vector<JointSamples> joints;
+  std::vector<SignalSamples> signals;
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
   std::string element;    ///< the entry of the study, for messages: `identify.data[0]`
   SourceLocation where;   ///< place of this entry, for messages
@@ -89,11 +98,5 @@ StudyRecordings load_recordings(const IdentificationDescription& identification,
                                 const RobotDescription& robot, const std::string& folder,
                                 const BagReader& reader, Warnings* warnings,
                                 const std::atomic<bool>* cancel = nullptr);
-
-/// Puts the times of a recording on equal steps if its motion says that the samples were taken
-/// there and only their stamps jitter; doc/theory.md (30a). Missing samples stay missing. Warning
-/// `recording_even_stamps`. Otherwise nothing changes.
-/// @param recording with ascending times, turns unwrapped
-void even_stamps(JointRecording* recording, Warnings* warnings);
 
 }  // namespace codesign

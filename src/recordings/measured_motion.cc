@@ -131,6 +131,7 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
   if (motion.velocity.size() > 0) motion.acceleration = derivative(motion.velocity, uniform.step);
   if (!samples.effort.empty())
     motion.effort = resample(times, samples.effort, uniform, Resampling::kLinear);
+  motion.least_speed = samples.least_speed;
   return motion;
 }
 
@@ -225,6 +226,9 @@ MeasuredMotion measured_motion(const JointRecording& recording, const FilterOpti
   for (const JointSamples& samples : recording.joints)
     motion.joints.push_back(
         motion_of(samples, recording.times, motion.times, smoothing, &workspace));
+  for (const SignalSamples& samples : recording.signals)
+    motion.signals.push_back(
+        resample(recording.times, samples.values, motion.times, Resampling::kLinear));
   return motion;
 }
 

@@ -60,6 +60,7 @@ struct JointMotion {
   bool velocity_measured = false;  ///< false: the velocity is the derivative of the position
   /// false: the position is the integral of the velocity from JointSamples::start
   bool position_measured = true;
+  double least_speed = 0.0;  ///< JointSamples::least_speed
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
@@ -67,6 +68,8 @@ struct MeasuredMotion {
   std::string element;  ///< the entry of the study: `identify.data[0]`
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
+  /// of JointRecording::signals, not filtered, in their units
+  std::vector<Eigen::VectorXd> signals;
   /// The samples to fit: `first`, `first + every`, ... below `end`. Near the ends a filter has
   /// samples on one side only, so that 2/cutoff is left out at each end, for both cutoffs; the
   /// effect of the mirrored end on a filter of order four has then decayed to 1 %.

@@ -309,6 +309,8 @@ JointRecording read_table_recording(const RecordingDescription& description,
   std::vector<int> indices = {index_of(*found.time, table)};
   for (const MeasuredColumn& measured : found.columns)
     indices.push_back(index_of(measured.column, table));
+  for (const SignalColumn& signal : found.signals)
+    indices.push_back(index_of(signal.column, table));
   NumberTable::Columns columns = table.read(indices);
   JointRecording recording;
   recording.file = path;
@@ -321,6 +323,10 @@ JointRecording read_table_recording(const RecordingDescription& description,
     samples_of(measured.joint, &recording.joints).of(measured.quantity) =
         scaled(std::move(columns.values[k + 1]), measured.column);
   }
+  for (std::size_t k = 0; k < found.signals.size(); ++k)
+    recording.signals.push_back(
+        {found.signals[k].signal,
+         scaled(std::move(columns.values[1 + found.columns.size() + k]), found.signals[k].column)});
   return recording;
 }
 

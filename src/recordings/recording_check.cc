@@ -34,6 +34,14 @@ void require_finite(const JointRecording& recording) {
                     " is not a finite number",
                 to_decimal(*bad), "finite numbers; `from` and `to` choose a part of the recording");
     }
+  for (const SignalSamples& samples : recording.signals) {
+    const auto bad = std::find_if(samples.values.begin(), samples.values.end(),
+                                  [](double value) { return !std::isfinite(value); });
+    if (bad != samples.values.end())
+      fail_at(recording, to_index(bad - samples.values.begin()),
+              samples.signal.text + " is not a finite number", to_decimal(*bad),
+              "finite numbers; `from` and `to` choose a part of the recording");
+  }
 }
 
 void require_ascending(const JointRecording& recording) {

@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -24,10 +25,15 @@ constexpr Eigen::Index kSums = 500;
 // More pieces than parameters, without which the sums over pieces do not tell a variance.
 constexpr Eigen::Index kLeastDegrees = 3;
 
-/// (J^T J)^-1 with zeros for the parameters that depend on others: these are held fixed while the
-/// others are determined.
-Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R,
-                                         const Identifiability& identifiability) {
+// Fewer pieces do not tell how their contributions are correlated from one to the next.
+constexpr Eigen::Index kPiecesOfKernel = 20;
+// Of one: what a piece leaves at least of a direction of the parameters to the other pieces. One
+// that alone determines a direction has no residual along it.
+constexpr double kLeastLeft = 0.01;
+
+/// L with L L^T = (J^T J)^-1, p x rank, with rows of zeros for the parameters that depend on
+/// others: these are held fixed while the others are determined.
+Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& R, const Identifiability& identifiability) {
   const Eigen::Index p = R.cols();
   const auto& dependent = identifiability.dependent;
   std::vector<int> independent;
@@ -41,15 +47,38 @@ Eigen::MatrixXd inverse_of_normal_matrix(const Eigen::MatrixXd& R,
     lengths[k] = R.col(independent[to_index(k)]).norm();
     scaled.col(k) = R.col(independent[to_index(k)]) / lengths[k];
   }
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, p);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(p, rank);
   if (rank == 0) return result;
   const SingularValues svd = singular_values(scaled, SingularVectors::kRight);
   const Eigen::MatrixXd root =
       lengths.cwiseInverse().asDiagonal() * svd.V * svd.values.cwiseInverse().asDiagonal();
-  const Eigen::MatrixXd inverse = root * root.transpose();
-  for (Eigen::Index i = 0; i < rank; ++i)
-    for (Eigen::Index j = 0; j < rank; ++j)
-      result(independent[to_index(i)], independent[to_index(j)]) = inverse(i, j);
+  for (Eigen::Index i = 0; i < rank; ++i) result.row(independent[to_index(i)]) = root.row(i);
+  return result;
+}
+
+/// The contribution of each piece to the error of the parameters, pieces x p, as the other pieces
+/// tell it, theory (43a): a piece with much of the information draws the fit, so that its residuals
+/// are too small.
+Eigen::MatrixXd contributions_of_pieces(const Eigen::MatrixXd& residuals,
+                                        const Eigen::MatrixXd& jacobian,
+                                        const Eigen::MatrixXd& root, const SeriesLengths& pieces) {
+  Eigen::MatrixXd result(to_signed(pieces.size()), root.rows());
+  Eigen::Index begin = 0;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(root.cols(), root.cols());
+    Eigen::VectorXd scores = Eigen::VectorXd::Zero(root.cols());
+    for (Eigen::Index output = 0; output < residuals.cols(); ++output) {
+      const Eigen::MatrixXd rows =
+          jacobian.middleRows(output * residuals.rows() + begin, pieces[piece]) * root;
+      left -= transposed_product(rows, rows);
+      scores += rows.transpose() * residuals.col(output).segment(begin, pieces[piece]);
+    }
+    const SymmetricEigen eigen = symmetric_eigen(left);
+    const Eigen::VectorXd told =
+        (eigen.vectors.transpose() * scores).cwiseQuotient(eigen.values.cwiseMax(kLeastLeft));
+    result.row(to_signed(piece)) = (root * (eigen.vectors * told)).transpose();
+    begin += pieces[piece];
+  }
   return result;
 }
 
@@ -64,6 +93,12 @@ Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::Mat
   return scores * inverse;
 }
 
+/// A lag in sums over times, in times.
+int in_times(int lag, Eigen::Index times, Eigen::Index sums) {
+  return static_cast<int>(
+      std::lround(lag * static_cast<double>(times) / static_cast<double>(sums)));
+}
+
 void set_symmetric_intervals(double level, ParameterCovariance* result) {
   result->below = interval_factor(level, result->degrees) *
                   result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
@@ -76,6 +111,13 @@ void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, doub
   result->covariance = correction * estimate.covariance;
   result->lag = estimate.lag;
   result->degrees = std::min(result->degrees, estimate.degrees);
+  set_symmetric_intervals(options.level, result);
+}
+
+void use_independent(const Eigen::MatrixXd& terms, double correction,
+                     const IntervalOptions& options, ParameterCovariance* result) {
+  result->covariance = correction * (terms.transpose() * terms);
+  result->lag = 1;
   set_symmetric_intervals(options.level, result);
 }
 
@@ -95,29 +137,42 @@ void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, d
   }
 }
 
-/// The contributions of single times do not matter, only their sums over longer times: over pieces
-/// with unknowns of their own, to which each contribution of a piece is tied, else over equal parts
-/// of so many times that the rate of the samples does not matter. A lag that is given counts times.
-/// @param correction of the covariance for degrees of freedom, without pieces
-void use_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
-              const EliminatedUnknowns& eliminated, double correction,
+/// The contributions of single times do not matter, only their sums over equal parts of so many
+/// times that the rate of the samples does not matter. A lag that is given counts times.
+/// @param correction of the covariance for degrees of freedom
+void use_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
               const IntervalOptions& options, ParameterCovariance* result) {
   const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
   if (options.lag > 0) return use(terms, lengths, correction, options, result);
-  const Eigen::Index pieces = to_signed(eliminated.pieces.size()),
-                     left = pieces - result->identifiability.rank;
-  const bool is_by_piece = left >= kLeastDegrees;
   const SummedSeries sums = sums_over(
-      terms, lengths,
-      is_by_piece ? eliminated.pieces
-                  : equal_parts(lengths, std::max<Eigen::Index>(1, terms.rows() / kSums)));
-  if (is_by_piece) result->degrees = static_cast<double>(left);
-  use(sums.terms, sums.lengths,
-      is_by_piece ? static_cast<double>(pieces) / static_cast<double>(left) : correction, options,
-      result);
-  const double times_per_sum =
-      static_cast<double>(terms.rows()) / static_cast<double>(sums.terms.rows());
-  result->lag = static_cast<int>(std::lround(result->lag * times_per_sum));
+      terms, lengths, equal_parts(lengths, std::max<Eigen::Index>(1, terms.rows() / kSums)));
+  use(sums.terms, sums.lengths, correction, options, result);
+  result->lag = in_times(result->lag, terms.rows(), sums.terms.rows());
+}
+
+/// Number of pieces of each recording.
+SeriesLengths pieces_of_each(const SeriesLengths& lengths, const SeriesLengths& pieces) {
+  return sums_over(
+             Eigen::MatrixXd(std::accumulate(lengths.begin(), lengths.end(), Eigen::Index{0}), 0),
+             lengths, pieces)
+      .lengths;
+}
+
+/// Sums over pieces with unknowns of their own, to which each contribution of a piece is tied.
+void use_pieces(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian,
+                const Eigen::MatrixXd& root, const SeriesLengths& lengths,
+                const SeriesLengths& pieces, const IntervalOptions& options,
+                ParameterCovariance* result) {
+  const auto count = static_cast<double>(pieces.size());
+  const Eigen::MatrixXd terms = contributions_of_pieces(residuals, jacobian, root, pieces);
+  result->degrees = count - 1.0;
+  if (options.noise == NoiseModel::kBootstrap)
+    use_bootstrap(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
+  else if (to_signed(pieces.size()) >= kPiecesOfKernel)
+    use_kernel(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
+  else
+    use_independent(terms, result->degrees / count, options, result);
+  result->lag = in_times(result->lag, residuals.rows(), to_signed(pieces.size()));
 }
 
 /// With the dependent parameters held, an independent one stands for its combination with them.
@@ -161,7 +216,8 @@ ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen:
   result.identifiability = find_identifiable(R);
   result.degrees = std::max(1.0, static_cast<double>(rows - result.identifiability.rank));
   result.residual_variance = 1.0;
-  result.covariance = inverse_of_normal_matrix(R, result.identifiability);
+  const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability);
+  result.covariance = root * root.transpose();
   set_symmetric_intervals(level, &result);
   mark_undetermined(&result);
   return result;
@@ -175,17 +231,20 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
-  const auto rows = static_cast<double>(residuals.size());
+  const auto rows = static_cast<double>(residuals.size() - eliminated.left_out);
   const Eigen::Index rank = result.identifiability.rank;
   result.degrees = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
   result.residual_variance = residuals.squaredNorm() / result.degrees;
-  const Eigen::MatrixXd inverse = inverse_of_normal_matrix(R, result.identifiability);
+  const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability),
+                        inverse = root * root.transpose();
   if (options.noise == NoiseModel::kWhite) {
     result.covariance = result.residual_variance * inverse;
     set_symmetric_intervals(options.level, &result);
+  } else if (options.lag == 0 && to_signed(eliminated.pieces.size()) - rank >= kLeastDegrees) {
+    use_pieces(residuals, jacobian, root, lengths, eliminated.pieces, options, &result);
   } else {
-    use_sums(contributions(residuals, jacobian, inverse), lengths, eliminated,
-             rows / result.degrees, options, &result);
+    use_sums(contributions(residuals, jacobian, inverse), lengths, rows / result.degrees, options,
+             &result);
   }
   mark_undetermined(&result);
   return result;

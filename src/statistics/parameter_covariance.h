@@ -39,6 +39,7 @@ struct EliminatedUnknowns {
   /// rows of each piece with unknowns of its own; a piece lies within one recording. Empty without
   /// such unknowns
   SeriesLengths pieces = {};
+  Eigen::Index left_out = 0;  ///< residuals that are zero since they do not count
 };
 
 /// @param residuals at the fit, one row per time and one column per output (joint), N x m; several

@@ -1,8 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "identification/complex_efforts.h"
 
-#include <Eigen/LU>
-
 namespace codesign {
 
 ComplexEfforts::ComplexEfforts(const DrivenSystem& driven, DriveMotion given,
@@ -36,14 +34,22 @@ Eigen::VectorXcd ComplexEfforts::operator()(const Eigen::VectorXcd& rho_and_shif
   return efforts;
 }
 
+// The corrections end where the complex equations hold, whatever matrix leads there: the real one
+// at the first state serves all.
 Eigen::VectorXcd ComplexEfforts::solve(const Eigen::VectorXcd& right) {
-  equations_.linearize(state_, &derivatives_);
-  const Sparsity& pattern = system_.patterns().rate;
-  Eigen::MatrixXcd matrix = Eigen::MatrixXcd::Zero(right.size(), right.size());
-  for (int row = 0; row < right.size(); ++row)
-    for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
-      matrix(row, pattern.column(e)) = derivatives_.rate[to_index(e)];
-  return matrix.partialPivLu().solve(right);
+  if (!lu_) {
+    equations_.linearize(state_, &derivatives_);
+    const Sparsity& pattern = system_.patterns().rate;
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(right.size(), right.size());
+    for (int row = 0; row < right.size(); ++row)
+      for (int e = pattern.first(row); e < pattern.first(row + 1); ++e)
+        matrix(row, pattern.column(e)) = derivatives_.rate[to_index(e)].real();
+    lu_.emplace(matrix);
+  }
+  Eigen::VectorXcd result(right.size());
+  result.real() = lu_->solve(Eigen::VectorXd(right.real()));
+  result.imag() = lu_->solve(Eigen::VectorXd(right.imag()));
+  return result;
 }
 
 void ComplexEfforts::correct_rates() {

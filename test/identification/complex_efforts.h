@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "assembly/driven_motion.h"
@@ -38,6 +40,7 @@ class ComplexEfforts {
   Equations<Complex> equations_;
   State<Complex> state_;
   Linearization<Complex> derivatives_;
+  std::optional<Eigen::PartialPivLU<Eigen::MatrixXd>> lu_;
 };
 
 }  // namespace codesign

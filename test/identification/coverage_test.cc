@@ -2,8 +2,10 @@
 // Whether 95 % intervals hold the truth in 95 % of many runs with correlated noise, through the
 // whole identification.
 #include <cmath>
+#include <mutex>
 #include <random>
 
+#include "engine/thread_engine.h"
 #include "identification/fit/fit_variables.h"
 #include "identification/identify.h"
 #include "identification/simulated_recording.h"
@@ -55,7 +57,8 @@ std::map<std::string, double> coverage(const std::string& noise, int runs) {
       load_problem({"swing.urdf", kSwing}, {}, {"study.yaml", swing_study(noise)});
   const JointRecording clean = record_run(problem, truth, {"hinge"}, 100.0);
   std::map<std::string, double> held;
-  for (int run = 0; run < runs; ++run) {
+  std::mutex mutex;
+  side_by_side(static_cast<std::size_t>(runs), 2, [&](std::size_t run) {
     StudyRecordings recordings;
     recordings.data = {clean};
     std::mt19937 random(static_cast<unsigned>(run) + 1000);
@@ -69,11 +72,12 @@ std::map<std::string, double> coverage(const std::string& noise, int runs) {
     }
     const IdentificationResult result = identify(problem, recordings, {}, nullptr);
     EXPECT_TRUE(result.status.ok()) << result.status.cause;
+    const std::lock_guard<std::mutex> lock(mutex);
     for (const IdentifiedNumber& number : result.numbers)
       held[number.name] +=
           number.low <= truth.at(number.name) && truth.at(number.name) <= number.high ? 1.0 / runs
                                                                                       : 0.0;
-  }
+  });
   return held;
 }
 

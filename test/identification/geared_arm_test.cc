@@ -4,15 +4,23 @@
 
 #include <cmath>
 
+#include "engine/thread_engine.h"
 #include "identification/identify.h"
 
 namespace codesign {
 namespace {
 
+/// Simulated once for all tests.
+const JointRecording& clean_recording() {
+  static const JointRecording kClean = clean_geared_recording();
+  return kClean;
+}
+
 TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
   const Problem problem = geared_problem();
-  const JointRecording clean = clean_geared_recording();
-  for (unsigned seed = 3; seed < 43; seed += 4) {
+  const JointRecording& clean = clean_recording();
+  side_by_side(10, 2, [&](std::size_t run) {
+    const unsigned seed = 3 + 4 * static_cast<unsigned>(run);
     StudyRecordings recordings;
     recordings.data = {with_noise(clean, seed)};
     const IdentificationResult result = identify(problem, recordings, {}, nullptr);
@@ -24,7 +32,7 @@ TEST(GearedArm, EfficiencyAndFrictionFromMotorsAlone) {
       EXPECT_TRUE(number.is_determined) << number.name;
     }
     expect_geared_truth(found, "seed " + std::to_string(seed));
-  }
+  });
 }
 
 TEST(GearedArm, WithoutTheGearTheLossesAreNotExplained) {
@@ -33,7 +41,7 @@ TEST(GearedArm, WithoutTheGearTheLossesAreNotExplained) {
   other.replace(other.find("efficiency: {}, "), 16, "efficiency: {tune: false, initial: 1.0}, ");
   const Problem without = load_problem({"arm.urdf", kGearedArm}, {}, {"study.yaml", other});
   StudyRecordings recordings;
-  recordings.data = {clean_geared_recording()};
+  recordings.data = {clean_recording()};
   const IdentificationResult with_gear = identify(problem, recordings, {}, nullptr),
                              without_gear = identify(without, recordings, {}, nullptr);
   ASSERT_TRUE(with_gear.status.ok()) << with_gear.status.cause;

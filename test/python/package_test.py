@@ -110,7 +110,12 @@ class Documentation(unittest.TestCase):
         fault = codesign.InputError({key: "" for key in ("file", "line", "element", "value", "allowed", "message")})
         lift = [f"{ROOT}/gallery/goods_lift/{file}" for file in ("model.urdf", "tradeoff.yaml")]
         curve = codesign.Problem(*lift).tradeoff(points=3)
-        return [curve, curve.points[0], problem, problem.parameters[0], problem.simulate(), problem.linearize(), codesign.TransferFunction(np.zeros(1, complex), np.zeros(2, complex), 1.0, None), result, result.status, fit, fit.numbers["mass"], trials[0], trials[-1], stage,
+        recording = codesign.Recording(*recorded())
+        twice = codesign.Problem(ARM.replace("${viscous}", "${viscous + other}").replace(
+            '<link name="ground"/>', '<codesign:parameter name="other" value="0" lower="0" upper="5"/><link name="ground"/>'),
+            "duration: 4.0\nparameters: {mass: {}, viscous: {}, other: {}}\n")
+        base = next(iter(twice.identify(recording).base.values()))
+        return [recording, twice.regressor(recording), base, curve, curve.points[0], problem, problem.parameters[0], problem.simulate(), problem.linearize(), codesign.TransferFunction(np.zeros(1, complex), np.zeros(2, complex), 1.0, None), result, result.status, fit, fit.numbers["mass"], trials[0], trials[-1], stage,
                 failure, fault, codesign.Warning("code", "message")]
 
     def test_each_member_is_documented_with_shape_and_unit(self):

@@ -281,7 +281,8 @@ DrivenSystem choose_drives(const CompiledSystem& of, const std::vector<MeasuredJ
 
 DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const std::vector<MeasuredJoint>& measured,
-                                const Eigen::MatrixXd& positions) {
+                                const Eigen::MatrixXd& positions,
+                                const std::vector<SignalDescription>& signals) {
   refuse_motions_of_loops(of);
   const std::vector<int> joints = find_joints(of.robot(), measured);
   refuse_friction_states(of);
@@ -292,9 +293,20 @@ DrivenSystem make_driven_system(const CompiledSystem& of,
                             : choose_drives(without_motions(of), measured, joints, positions);
   std::vector<int> drives;
   for (int k : driven.drives) drives.push_back(joints[to_index(k)]);
-  driven.system = std::make_shared<const CompiledSystem>(
-      of.robot(), without_control(of.whole_study()), of.sharing(), drives);
+  Study study = without_control(of.whole_study());
+  for (const SignalDescription& signal : signals)
+    study.watched.push_back(compared_signal(signal, study.duration));
+  driven.system =
+      std::make_shared<const CompiledSystem>(of.robot(), std::move(study), of.sharing(), drives);
   return driven;
+}
+
+WatchedSignal compared_signal(const SignalDescription& signal, double duration) {
+  WatchedSignal watched;
+  watched.signal = signal;
+  watched.element = "identify.data";
+  watched.before = duration;
+  return watched;
 }
 
 InputFault in_words_of_study(InputFault fault, const std::string& element,

@@ -32,10 +32,16 @@ struct MeasuredJoint {
 /// have no columns.
 /// @throws InputError for unknown or repeated joints and joints without one coordinate, for a joint
 /// whose motion the measured joints do not determine, for more joints with an effort than degrees
-/// of freedom, for friction laws with states, and for loads that read a set-point.
+/// of freedom, for friction laws with states, for loads that read a set-point, and for signals that
+/// cannot be resolved without controllers.
+/// @param signals that the system watches
 DrivenSystem make_driven_system(const CompiledSystem& of,
                                 const std::vector<MeasuredJoint>& measured,
-                                const Eigen::MatrixXd& positions = {});
+                                const Eigen::MatrixXd& positions = {},
+                                const std::vector<SignalDescription>& signals = {});
+
+/// A signal whose values are compared with a recording, as a study watches it.
+WatchedSignal compared_signal(const SignalDescription& signal, double duration);
 
 /// A fault of make_driven_system() in the words of a study that names the joints itself, in place
 /// of recordings. @param element where it names them. @param undetermined, allowed message and

@@ -8,6 +8,7 @@
 
 #include "description/study.h"
 #include "identification/effort/effort_residuals.h"
+#include "identification/effort/filter_doubt.h"
 #include "identification/fit/given_motion.h"
 #include "math/arrays.h"
 #include "math/dense.h"
@@ -26,8 +27,23 @@ constexpr double kUsualScale = 4.0;
 struct EffortEvidence {
   std::vector<std::string> joints;
   Eigen::MatrixXd recorded, computed, velocity, acceleration;
-  Eigen::MatrixXd by_x;  ///< derivatives of the residuals, the rows of joint 0 first
+  Eigen::MatrixXd by_x;                ///< derivatives of the residuals, the rows of joint 0 first
+  std::vector<std::vector<int>> rows;  ///< those that count, of each joint
+
+  Eigen::VectorXd of(std::size_t joint, const Eigen::VectorXd& column) const {
+    return column(rows[joint]);
+  }
 };
+
+std::vector<std::vector<int>> counted_rows(const Eigen::MatrixXd& recorded,
+                                           const Eigen::MatrixXd& counted) {
+  std::vector<std::vector<int>> rows(to_index(recorded.cols()));
+  for (Eigen::Index joint = 0; joint < recorded.cols(); ++joint)
+    for (Eigen::Index row = 0; row < recorded.rows(); ++row)
+      if (counted.size() == 0 || counted(row, joint) != 0.0)
+        rows[to_index(joint)].push_back(static_cast<int>(row));
+  return rows;
+}
 
 Eigen::VectorXd about_mean_of(const Eigen::VectorXd& recorded) {
   return recorded.array() - recorded.mean();
@@ -73,6 +89,7 @@ std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVaria
   evidence.joints = residuals.outputs();
   evidence.recorded = residuals.recorded();
   evidence.computed += evidence.recorded;
+  evidence.rows = counted_rows(evidence.recorded, residuals.counted());
   residuals.motion_of_outputs(&evidence.velocity, &evidence.acceleration);
   return evidence;
 }
@@ -93,8 +110,9 @@ std::optional<EffortEvidence> usable_evidence(const Problem& problem, const FitV
 DriveLineFit fit_of(const EffortEvidence& evidence, std::size_t joint,
                     const Eigen::VectorXd& recorded) {
   const auto k = to_signed(joint);
-  return fit_drive_line(evidence.computed.col(k), evidence.velocity.col(k),
-                        evidence.acceleration.col(k), recorded);
+  const auto counted = [&](const Eigen::VectorXd& column) { return evidence.of(joint, column); };
+  return fit_drive_line(counted(evidence.computed.col(k)), counted(evidence.velocity.col(k)),
+                        counted(evidence.acceleration.col(k)), counted(recorded));
 }
 
 double mean_share(const EffortEvidence& evidence) {
@@ -125,16 +143,21 @@ double share_left(const Eigen::VectorXd& column, const PivotedLeastSquares& know
 bool is_factor_of_all(const EffortEvidence& evidence, std::size_t joint) {
   constexpr double kAlike = 2.0, kNothingLeft = 0.01, kHasIt = 0.2, kIsAll = 1e-3;
   const auto k = to_signed(joint);
-  const Eigen::Index rows = evidence.recorded.rows();
-  Eigen::MatrixXd free = evidence.by_x.middleRows(k * rows, rows);
+  const std::vector<int>& counted = evidence.rows[joint];
+  const auto rows = to_signed(counted.size());
+  const Eigen::MatrixXd whole =
+      evidence.by_x.middleRows(k * evidence.recorded.rows(), evidence.recorded.rows());
+  Eigen::MatrixXd free = whole(counted, Eigen::all);
   free.rowwise() -= free.colwise().mean().eval();
-  const Eigen::VectorXd computed = evidence.computed.col(k), recorded = evidence.recorded.col(k);
+  const Eigen::VectorXd computed = evidence.of(joint, evidence.computed.col(k)),
+                        recorded = evidence.of(joint, evidence.recorded.col(k));
   for (Eigen::Index i = 0; i < free.cols(); ++i)
     if (share_left(computed, PivotedLeastSquares(free.col(i))) < kIsAll) return false;
   const PivotedLeastSquares by_numbers(free);
   // Friction and rotor count beside the model where it lacks them.
   Eigen::MatrixXd scaled(rows, 4);
-  scaled << computed, drive_line_columns(evidence.velocity.col(k), evidence.acceleration.col(k));
+  scaled << computed, drive_line_columns(evidence.of(joint, evidence.velocity.col(k)),
+                                         evidence.of(joint, evidence.acceleration.col(k)));
   scaled.rowwise() -= scaled.colwise().mean().eval();
   for (Eigen::Index i = 1; i < scaled.cols(); ++i)
     if (share_left(scaled.col(i), by_numbers) < kHasIt) scaled.col(i).setZero();
@@ -163,8 +186,9 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
       doubt.mended = as_recorded.share;
       doubt.is_unit = true;
       // As recorded, without a free scale.
-      doubt.share = explained_share(evidence.recorded.col(own),
-                                    evidence.computed.col(own) - evidence.recorded.col(own));
+      const Eigen::VectorXd recorded = evidence.of(joint, evidence.recorded.col(own)),
+                            computed = evidence.of(joint, evidence.computed.col(own));
+      doubt.share = explained_share(recorded, computed - recorded);
     }
     return doubt;
   }
@@ -179,47 +203,6 @@ EffortDoubt doubt_column(const EffortEvidence& evidence, std::size_t joint, bool
       take_if_better(fit_of(evidence, joint, sign * evidence.recorded.col(k)).share, other + minus,
                      &doubt);
     }
-  return doubt;
-}
-
-/// Positions, or velocities where no positions were recorded, at the samples to fit.
-Eigen::VectorXd recorded_motion(const MeasuredMotion& motion, const std::string& joint) {
-  for (const JointMotion& each : motion.joints)
-    if (each.joint == joint) {
-      const Eigen::VectorXd& of = each.position_measured ? each.position : each.velocity;
-      return of.segment(motion.first, std::max<Eigen::Index>(0, motion.end - motion.first));
-    }
-  return {};
-}
-
-/// A doubt about the study's filter, if it leaves less than half of a joint's motion.
-std::optional<EffortDoubt> doubt_filter(const std::vector<JointRecording>& recordings,
-                                        FilterOptions filter, const std::string& joint) {
-  constexpr double kLeastLeft = 0.5;
-  if (filter.residual_cutoff > 0.0)
-    filter.cutoff = filter.cutoff > 0.0 ? std::min(filter.cutoff, filter.residual_cutoff)
-                                        : filter.residual_cutoff;
-  if (!(filter.cutoff > 0.0)) return std::nullopt;
-  filter.residual_cutoff = 0.0;
-  double all = 0.0, removed = 0.0;
-  for (const JointRecording& recording : recordings) {
-    Warnings known_warnings;
-    FilterOptions none = filter;
-    none.cutoff = 0.0;
-    // The same samples of both.
-    const Eigen::VectorXd smooth = recorded_motion(
-                              measured_motion(recording, filter, &known_warnings), joint),
-                          raw = recorded_motion(measured_motion(recording, none, &known_warnings),
-                                                joint);
-    const Eigen::Index cut = (raw.size() - smooth.size()) / 2;
-    const Eigen::VectorXd same = raw.segment(cut, smooth.size());
-    all += about_mean_of(same).squaredNorm();
-    removed += about_mean_of(same - smooth).squaredNorm();
-  }
-  if (!(removed > kLeastLeft * all)) return std::nullopt;
-  EffortDoubt doubt{joint, 0.0, "", 0.0};
-  doubt.cutoff = filter.cutoff;
-  doubt.motion_left = std::max(0.0, 1.0 - removed / all);
   return doubt;
 }
 

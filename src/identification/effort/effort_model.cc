@@ -92,11 +92,12 @@ struct EffortModel::EffortWorker {
 };
 
 EffortModel::EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints,
-                         MotionSamples motion, int threads)
+                         MotionSamples motion, int threads,
+                         const std::vector<SignalDescription>& signals)
     : system_(system),
       joints_(std::move(joints)),
       motion_(std::move(motion)),
-      driven_(make_driven_system(system, joints_, some_positions(motion_))),
+      driven_(make_driven_system(system, joints_, some_positions(motion_), signals)),
       unshifted_(rows_of(motion_.position, motion_.shifted)) {
   require_shape(motion_, joints_.size());
   shifted_drives_ = drives_of(motion_.shifted, joints_, driven_);
@@ -195,10 +196,12 @@ EffortModel::Failure EffortModel::evaluate_block(int block, EffortWorker* worker
     if (Status status = worker->motion.solve(given(sample), &state); !status.ok())
       return {sample, status};
     for (int k = 0; k < drives; ++k) (*efforts)(k, sample) = worker->motion.effort(state, k);
+    for (int k = drives; k < static_cast<int>(outputs()); ++k)
+      (*efforts)(k, sample) = worker->motion.equations().watched(to_index(k - drives), state);
     if (jacobian == nullptr) continue;
     if (Status status = worker->motion.linearize(state); !status.ok()) return {sample, status};
     worker->tangents.for_each([&](auto* group) {
-      group->differentiate(worker->motion, state, Eigen::Index{sample} * drives, jacobian);
+      group->differentiate(worker->motion, state, sample * outputs(), jacobian);
     });
   }
   return {};
@@ -208,9 +211,9 @@ Status EffortModel::evaluate(const std::vector<double>& parameters, Eigen::Matri
                              RowJacobian* jacobian) {
   if (!workers_.back())
     throw std::logic_error("EffortModel::begin() must succeed before evaluate()");
-  efforts->resize(position_.rows(), samples());
+  efforts->resize(outputs(), samples());
   if (jacobian != nullptr)
-    jacobian->resize(position_.size(), this->parameters() + to_signed(shifted_drives_.size()));
+    jacobian->resize(outputs() * samples(), this->parameters() + to_signed(shifted_drives_.size()));
   const int blocks = (samples() + kBlock - 1) / kBlock;
   std::vector<Failure> failures(to_index(blocks));
   if (Status status = prepare(parameters, workers_.front().get()); !status.ok()) return status;

@@ -41,10 +41,11 @@ class EffortModel {
   /// must outlive this.
   /// @param motion as many rows as `joints`; finite numbers. With shifted joints, every shifted
   /// joint must be a drive, and there must be no surplus joint.
-  /// @param threads number of samples evaluated at the same time.
+  /// @param threads number of samples evaluated at the same time. @param signals that are computed
+  /// beside the efforts
   /// @throws InputError as make_driven_system().
   EffortModel(const CompiledSystem& system, std::vector<MeasuredJoint> joints, MotionSamples motion,
-              int threads = 1);
+              int threads = 1, const std::vector<SignalDescription>& signals = {});
   ~EffortModel();
 
   /// The joints whose efforts are computed, in the order of the rows of efforts and of
@@ -68,11 +69,11 @@ class EffortModel {
   /// Computes efforts and derivatives. @throws std::logic_error if begin() has not succeeded
   /// before.
   /// @param parameters all named parameters.
-  /// @param efforts resized to drives x samples: effort on the child along the joint coordinate [N
-  /// m or N].
-  /// @param jacobian may be null; else resized to (drives * samples) x tuned parameters, row sample
-  /// * drives + k for drive k; then one column per shifted joint, with the derivatives by its shift
-  /// in the recording of the sample.
+  /// @param efforts resized to outputs x samples: of each drive the effort on the child along the
+  /// joint coordinate [N m or N], then the signals.
+  /// @param jacobian may be null; else resized to (outputs * samples) x tuned parameters, row
+  /// sample * outputs + k for output k; then one column per shifted joint, with the derivatives by
+  /// its shift in the recording of the sample.
   /// @return kInvalidDesign for impossible masses or dimensions, kCancelled, or the status of the
   /// first sample that fails.
   Status evaluate(const std::vector<double>& parameters, Eigen::MatrixXd* efforts,
@@ -97,6 +98,10 @@ class EffortModel {
     Status status;
   };
   DriveMotion given(int sample) const;
+  /// Drives and signals.
+  Eigen::Index outputs() const {
+    return position_.rows() + to_signed(driven_.system->watched().size());
+  }
   double time(int sample) const {
     return motion_.times.empty() ? 0.0 : motion_.times[to_index(sample)];
   }

@@ -2,10 +2,12 @@
 #include "identification/effort/effort_residuals.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "math/arrays.h"
 #include "recordings/measured_motion.h"
+#include "recordings/recording_check.h"
 
 namespace codesign {
 namespace {
@@ -15,11 +17,6 @@ const JointMotion& motion_of(const MeasuredMotion& recording, const std::string&
                        [&](const JointMotion& motion) { return motion.joint == joint; });
 }
 
-InputError recording_error(const JointRecording& recording, const std::string& message,
-                           const std::string& value, const std::string& allowed) {
-  return InputError({recording.where, recording.element, message, value, allowed});
-}
-
 std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   std::vector<std::string> names;
   names.reserve(joints.size());
@@ -27,65 +24,24 @@ std::vector<std::string> names_of(const std::vector<MeasuredJoint>& joints) {
   return names;
 }
 
-bool has_positions(const JointSamples& samples) {
-  return !samples.position.empty() || (!samples.velocity.empty() && samples.start);
-}
-
-// Drivers without a sensor and joints without a motor record zeros: their efforts are not known.
-bool has_efforts(const JointSamples& samples) {
-  return std::any_of(samples.effort.begin(), samples.effort.end(),
-                     [](double effort) { return effort != 0.0; });
-}
-
 }  // namespace
-
-std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings) {
-  std::vector<MeasuredJoint> joints;
-  const JointRecording& first = recordings.front();
-  for (const JointSamples& samples : first.joints) {
-    MeasuredJoint joint{samples.joint, has_efforts(samples), 1.0, first.where};
-    if (!has_positions(samples))
-      throw recording_error(first, "the recording has no positions of this joint", samples.joint,
-                            samples.velocity.empty() ? "positions of each joint"
-                                                     : "positions, or start: {" + samples.joint +
-                                                           ": POSITION} with its velocity");
-    for (const JointRecording& other : recordings) {
-      const JointSamples* found = other.find(joint.name);
-      if (!found || !has_positions(*found))
-        throw recording_error(
-            other, "the recording has no positions of a joint that " + first.element + " has",
-            joint.name, "the same joints in all recordings");
-      joint.with_effort = joint.with_effort && has_efforts(*found);
-    }
-    joints.push_back(std::move(joint));
-  }
-  for (const JointRecording& other : recordings)
-    for (const JointSamples& samples : other.joints)
-      if (!first.find(samples.joint))
-        throw recording_error(other, "the recording has a joint that " + first.element + " lacks",
-                              samples.joint, "the same joints in all recordings");
-  return joints;
-}
-
-void require_efforts(const std::vector<MeasuredJoint>& joints,
-                     const std::vector<JointRecording>& recordings) {
-  if (std::none_of(joints.begin(), joints.end(),
-                   [](const MeasuredJoint& joint) { return joint.with_effort; }))
-    throw recording_error(recordings.front(),
-                          "no joint has efforts in all recordings, so that there is nothing to fit",
-                          "", "efforts of at least one joint, or residual: motion");
-}
 
 EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
                                  std::vector<MeasuredJoint> joints,
                                  std::vector<MeasuredMotion> recordings,
-                                 const FilterOptions& filter, int threads)
-    : variables_(variables), recordings_(std::move(recordings)), filter_(filter) {
+                                 const FilterOptions& filter, int threads,
+                                 std::vector<SignalDescription> signals)
+    : variables_(variables),
+      recordings_(std::move(recordings)),
+      filter_(filter),
+      signals_(std::move(signals)) {
   const std::vector<std::string> names = names_of(joints);
+  const SourceLocation where = joints.empty() ? SourceLocation() : joints.front().where;
   std::vector<bool> with_effort;
   with_effort.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
-  model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads);
+  model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads,
+                                         signals_);
   const std::vector<int>& drives = model_->driven().drives;
   for (std::size_t k = 0; k < drives.size(); ++k) {
     const auto joint = to_index(drives[k]);
@@ -93,18 +49,30 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
     outputs_.push_back(names[joint]);
     drives_.push_back(static_cast<int>(k));
   }
+  for (std::size_t k = 0; k < signals_.size(); ++k) {
+    outputs_.push_back(signals_[k].text);
+    drives_.push_back(static_cast<int>(drives.size() + k));
+  }
   for (const MeasuredMotion& recording : recordings_) {
     std::vector<double> times;
     for (Eigen::Index k = 0; k < recording.times.count; ++k) times.push_back(recording.times.at(k));
     efforts_.emplace_back();
-    for (const std::string& output : outputs_) {
-      const Eigen::VectorXd& effort = motion_of(recording, output).effort;
+    for (std::size_t output = 0; output < outputs_.size(); ++output) {
+      const Eigen::VectorXd& effort = recorded_of(recording, output);
       efforts_.back().emplace_back(times, std::vector<double>(effort.begin(), effort.end()));
     }
     lengths_.push_back(recording.fitted());
     rows_ += recording.fitted();
   }
   record();
+  count(where);
+}
+
+const Eigen::VectorXd& EffortResiduals::recorded_of(const MeasuredMotion& recording,
+                                                    std::size_t output) const {
+  const std::size_t efforts = outputs_.size() - signals_.size();
+  return output < efforts ? motion_of(recording, outputs_[output]).effort
+                          : recording.signals[output - efforts];
 }
 
 // Filters need all samples; without filters, only the fitted samples are computed.
@@ -202,6 +170,52 @@ Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* 
   return kept;
 }
 
+bool EffortResiduals::counts(std::size_t recording, std::size_t output, Eigen::Index sample) const {
+  if (output >= outputs_.size() - signals_.size()) return true;
+  const MeasuredMotion& motion = recordings_[recording];
+  const JointMotion& joint = motion_of(motion, outputs_[output]);
+  const Eigen::Index at =
+      filter_.residual_cutoff > 0.0 ? sample : motion.first + sample * motion.every;
+  return !(std::abs(joint.velocity[at]) < joint.least_speed);
+}
+
+Eigen::MatrixXd EffortResiduals::counted_of(std::size_t recording, std::size_t output,
+                                            Eigen::MatrixXd* columns) const {
+  if (counted_.size() == 0) return fitted(recording, columns);
+  for (Eigen::Index k = 0; k < columns->rows(); ++k)
+    if (!counts(recording, output, k)) columns->row(k).setZero();
+  Eigen::MatrixXd kept = fitted(recording, columns);
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < recording; ++r) row += lengths_[r];
+  for (Eigen::Index k = 0; k < kept.rows(); ++k)
+    if (counted_(row + k, to_signed(output)) == 0.0) kept.row(k).setZero();
+  return kept;
+}
+
+void EffortResiduals::count(const SourceLocation& where) {
+  const auto has_mask = [](const MeasuredMotion& motion) {
+    return std::any_of(motion.joints.begin(), motion.joints.end(),
+                       [](const JointMotion& joint) { return joint.least_speed > 0.0; });
+  };
+  if (std::none_of(recordings_.begin(), recordings_.end(), has_mask)) return;
+  counted_ = Eigen::MatrixXd::Ones(rows_, to_signed(outputs_.size()));
+  Eigen::Index row = 0;
+  for (std::size_t r = 0; r < recordings_.size(); ++r) {
+    const MeasuredMotion& motion = recordings_[r];
+    for (Eigen::Index k = 0; k < lengths_[r]; ++k, ++row)
+      for (std::size_t o = 0; o < outputs_.size(); ++o)
+        if (!counts(r, o, filter_.residual_cutoff > 0.0 ? motion.first + k * motion.every : k))
+          counted_(row, to_signed(o)) = 0.0;
+  }
+  for (std::size_t o = 0; o < outputs_.size(); ++o)
+    if (const double left = counted_.col(to_signed(o)).sum();
+        left < static_cast<double>(kLeastSamples))
+      throw InputError({where, "identify.data[].mask.speed",
+                        "the joint is hardly ever as fast: the mask leaves " +
+                            std::to_string(static_cast<int>(left)) + " samples of " + outputs_[o],
+                        "", "a lower speed, or recordings in which the joint moves"});
+}
+
 void EffortResiduals::record() {
   recorded_.resize(rows_, to_signed(outputs_.size()));
   Eigen::Index row = 0;
@@ -273,7 +287,7 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
       const auto output = to_signed(o);
       fill(r, o, x, jacobian != nullptr, &columns);
-      const Eigen::MatrixXd kept = fitted(r, &columns);
+      const Eigen::MatrixXd kept = counted_of(r, o, &columns);
       residuals->col(output).segment(row, lengths_[r]) = kept.col(0);
       if (jacobian)
         jacobian->middleRows(output * rows_ + row, lengths_[r]) = kept.rightCols(x.size());
@@ -323,7 +337,7 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
         columns(k, 1) = -residual.by_delay;
       }
       columns.col(0) = derivative(Eigen::VectorXd(columns.col(0)), step);
-      const Eigen::MatrixXd kept = fitted(r, &columns);
+      const Eigen::MatrixXd kept = counted_of(r, o, &columns);
       both += kept.col(0).dot(kept.col(1));
       slopes += kept.col(1).squaredNorm();
       signal.slopes.segment(row, lengths_[r]) = -kept.col(0);

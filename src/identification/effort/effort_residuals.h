@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "identification/effort/compared_recordings.h"
 #include "identification/effort/effort_model.h"
 #include "identification/fit/fit_variables.h"
 #include "identification/fit/residual_source.h"
@@ -15,28 +16,23 @@
 
 namespace codesign {
 
-/// The joints that all recordings measured, and whether their efforts were measured. Efforts that
-/// are zero throughout count as not measured.
-/// @throws InputError if a recording lacks a joint of another recording, or has neither position
-/// nor start of a joint.
-std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>& recordings);
-/// @throws InputError if none of these joints has efforts.
-void require_efforts(const std::vector<MeasuredJoint>& joints,
-                     const std::vector<JointRecording>& recordings);
-
 /// Residuals of several recordings of one robot as functions of x: computed minus recorded efforts,
-/// doc/theory.md (28c), at the samples to fit, and their exact derivatives. If
-/// FilterOptions::residual_cutoff is set, both efforts pass the same zero-phase filter.
+/// doc/theory.md (28c), then signals, at the samples to fit, and their exact derivatives. If
+/// FilterOptions::residual_cutoff is set, both pass the same zero-phase filter. Samples at which a
+/// joint is slower than its JointSamples::least_speed are zero before the filter and behind it, so
+/// that the filter spreads nothing of what friction at rest does.
 class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
   /// @param joints the joints of the recordings whose motion counts, as require_same_joints()
-  /// returns them. @throws InputError as make_driven_system().
+  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system(),
+  /// and for a joint that is hardly ever as fast as its samples must be
   EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
                   std::vector<MeasuredJoint> joints, std::vector<MeasuredMotion> recordings,
-                  const FilterOptions& filter, int threads);
+                  const FilterOptions& filter, int threads,
+                  std::vector<SignalDescription> signals = {});
 
-  /// The joints with a residual, one column each.
+  /// The joints with a residual, one column each; then the signals.
   const std::vector<std::string>& outputs() const override { return outputs_; }
   /// Number of fitted samples of each recording.
   const SeriesLengths& lengths() const override { return lengths_; }
@@ -45,6 +41,8 @@ class EffortResiduals final : public RecordingResiduals {
   /// N]; rows() x outputs.
   std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
   const Eigen::MatrixXd& recorded() const override { return recorded_; }
+  Eigen::MatrixXd counted() const override { return counted_; }
+  std::size_t signals() const override { return signals_.size(); }
   /// Times of the rows [s], each from the clock of its recording.
   std::vector<double> times() const override;
 
@@ -55,7 +53,7 @@ class EffortResiduals final : public RecordingResiduals {
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
                   Eigen::MatrixXd* jacobian) override;
   /// Velocities and accelerations of the joints of the outputs at the rows, not filtered like
-  /// residuals; rows() x outputs. Without a residual_cutoff only.
+  /// residuals; rows() x outputs. Without a residual_cutoff and signals only.
   void motion_of_outputs(Eigen::MatrixXd* velocity, Eigen::MatrixXd* acceleration) const;
   /// Once set, evaluations end soon with kCancelled; nullptr: never.
   void obey(const std::atomic<bool>* cancel) override { model_->obey(cancel); }
@@ -78,13 +76,22 @@ class EffortResiduals final : public RecordingResiduals {
   void clear_starts_without_effect(Eigen::MatrixXd* jacobian) const;
   /// Filters the columns and keeps the rows to fit.
   Eigen::MatrixXd fitted(std::size_t recording, Eigen::MatrixXd* columns) const;
+  /// The same of residuals: zero where samples do not count.
+  Eigen::MatrixXd counted_of(std::size_t recording, std::size_t output,
+                             Eigen::MatrixXd* columns) const;
+  /// Whether a sample of the model counts.
+  bool counts(std::size_t recording, std::size_t output, Eigen::Index sample) const;
+  const Eigen::VectorXd& recorded_of(const MeasuredMotion& recording, std::size_t output) const;
   void record();
+  /// @throws InputError at `where` if hardly any sample of a joint counts
+  void count(const SourceLocation& where);
 
   const FitVariables& variables_;
   const std::vector<MeasuredMotion> recordings_;
   const FilterOptions filter_;
+  const std::vector<SignalDescription> signals_;
   std::vector<std::string> outputs_;
-  std::vector<int> drives_;  ///< per output: its row in the model's efforts
+  std::vector<int> drives_;  ///< per output: its row in the model's efforts and signals
   std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
   /// the first sample of each recording in the model; then the number of samples
   std::vector<Eigen::Index> begins_;
@@ -94,7 +101,7 @@ class EffortResiduals final : public RecordingResiduals {
   Eigen::VectorXd begun_;  ///< the x given to begin()
   SeriesLengths lengths_;
   Eigen::Index rows_ = 0;
-  Eigen::MatrixXd recorded_, model_efforts_;
+  Eigen::MatrixXd recorded_, counted_, model_efforts_;
   RowJacobian model_jacobian_;
 };
 

@@ -71,6 +71,20 @@ void EffortTangent<N>::differentiate(const DrivenMotion& motion, const State<dou
     for (int lane = 0; lane < lanes_.count; ++lane)
       (*jacobian)(first_row + k, lanes_.first + lane) = solution_(lane, column);
   }
+  if (!system_.watched().empty())
+    differentiate_signals(state, first_row + motion.drives(), jacobian);
+}
+
+template <int N>
+void EffortTangent<N>::differentiate_signals(const State<double>& state, Eigen::Index first_row,
+                                             RowJacobian* jacobian) {
+  y_.middleCols(at_.z(), layout_.columns()) = -solution_.leftCols(layout_.columns());
+  const State<Lanes<N>>& point = equations_.lanes(state, y_);
+  for (std::size_t k = 0; k < system_.watched().size(); ++k) {
+    const Lanes<N> signal = equations_.equations().watched(k, point);
+    for (int lane = 0; lane < lanes_.count; ++lane)
+      (*jacobian)(first_row + to_signed(k), lanes_.first + lane) = signal.directions()(lane);
+  }
 }
 
 template class EffortTangent<4>;

@@ -34,12 +34,15 @@ class EffortTangent {
   void reset_pivots() { equations_.equations().compiled().use_first_variant(); }
 
   /// @param motion with the design of set_design() and linearized at `state`, its solution.
-  /// @param jacobian the rows first_row ... first_row + motion.drives() - 1 get the derivatives in
-  /// the columns of the lanes.
+  /// @param jacobian the rows from first_row on get the derivatives in the columns of the lanes:
+  /// one for each drive, then one for each watched signal.
   void differentiate(const DrivenMotion& motion, const State<double>& state, Eigen::Index first_row,
                      RowJacobian* jacobian);
 
  private:
+  /// The derivatives of the watched signals, with those of the rates in solution_.
+  void differentiate_signals(const State<double>& state, Eigen::Index first_row,
+                             RowJacobian* jacobian);
   /// Computes the derivatives of Phi, and of theta - y for the drives, along y_ and the lanes.
   void constraint_errors(const State<double>& state);
   /// Corrects the n directions of y_ from `first` on for the derivatives of the errors of the

@@ -41,21 +41,25 @@ struct BaseParameter {
 /// The residuals of one output: the effort of a joint or, with residuals in motion, its position,
 /// velocity or effort.
 struct OutputFit {
-  std::string joint;      ///< `elbow_joint`, or `elbow_joint/position`
+  /// `elbow_joint`, `elbow_joint/position`, or a signal as the study spells it
+  std::string joint;
   double recorded = 0.0;  ///< root mean square of the recorded values, in the unit of the output
   double start = 0.0;     ///< root mean square of the residuals at the start
   double rms = 0.0;       ///< root mean square of the residuals after the fit
   double worst = 0.0;     ///< largest magnitude of the residuals after the fit
   /// share of the recorded values that the fit explains: explained_share()
   double explained = 0.0;
-  Whiteness whiteness;  ///< of the residuals after the fit
+  double counted = 1.0;    ///< share of the samples that count, above the speed of a mask
+  bool is_signal = false;  ///< a recorded signal of the model
+  Whiteness whiteness;     ///< of the residuals after the fit
 };
 
 /// Recorded and computed outputs of several recordings; efforts filtered like the residuals.
 struct FittedSeries {
-  SeriesLengths lengths;               ///< rows of each recording
-  std::vector<double> times;           ///< one per row [s]
-  Eigen::MatrixXd recorded, computed;  ///< rows x outputs
+  SeriesLengths lengths;      ///< rows of each recording
+  std::vector<double> times;  ///< one per row [s]
+  /// rows x outputs; NaN is computed where a sample does not count
+  Eigen::MatrixXd recorded, computed;
 };
 
 /// The termination of a result in which nothing was fitted: evaluate_model().

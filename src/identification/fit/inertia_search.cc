@@ -105,7 +105,7 @@ class InertiaSearch {
   std::optional<End> take_step() {
     const LocalProblem local = local_problem(best_, x_, lower_, upper_, inertias_);
     const InertiaStep whole(local.gradient, local.root, local.blocks, local.lower, local.upper);
-    const double left = whole.decrease();
+    const double left = whole.decrease() + best_.inner_decrease;
     if (!(left > kOptimal * best_.value)) return End::kOptimum;
     if (left <= options_.relative_tolerance * best_.value) return End::kValueTolerance;
     double predicted = left;
@@ -139,8 +139,9 @@ class InertiaSearch {
         (std::sqrt(damping_) * local.norms.cwiseMax(largest > 0.0 ? 1e-8 * largest : 1.0))
             .asDiagonal();
     const InertiaStep step(local.gradient, local.root, local.blocks, local.lower, local.upper);
-    *predicted =
-        step.decrease() + (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm();
+    *predicted = step.decrease() +
+                 (local.root.bottomRows(undamped.cols()) * step.step()).squaredNorm() +
+                 best_.inner_decrease;
     return moved(local, step);
   }
 

@@ -14,10 +14,11 @@ std::vector<InertiaPrior> unbounded_inertias(const FitPrior& prior, const Eigen:
                                              const Eigen::VectorXd& upper);
 
 /// Minimizes a sum of squares psi and the priors of free inertias within bounds, doc/theory.md
-/// (39d). Residuals that are linear in the inertial numbers, as efforts are, need one step, however
-/// near to the border of the possible inertias the minimum lies: each step solves the convex
-/// problem (InertiaStep) that is exact in these numbers and linearized in the others. Where a step
-/// fails to gain what it predicts, the next one is damped as by Levenberg and Marquardt.
+/// (39d); unknowns of the model's own count by LeastSquaresPoint::inner_decrease. Residuals that
+/// are linear in the inertial numbers, as efforts are, need one step, however near to the border of
+/// the possible inertias the minimum lies: each step solves the convex problem (InertiaStep) that
+/// is exact in these numbers and linearized in the others. Where a step fails to gain what it
+/// predicts, the next one is damped as by Levenberg and Marquardt.
 ///
 /// The end is judged by the same convex problem without damping: it predicts a decrease below
 /// `relative_tolerance` (kValueTolerance) or below rounding (kOptimum), which at a minimum on the

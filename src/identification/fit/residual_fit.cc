@@ -27,24 +27,10 @@ constexpr double kSpreadShare = 0.1;
 // Of the root mean square at the start: the lower limit of a spread, for exact data.
 constexpr double kLeastSpread = 1e-9;
 
-Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals) {
-  return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows()))
-      .cwiseSqrt()
-      .transpose();
-}
-
-double median_magnitude(const Eigen::VectorXd& column) {
-  std::vector<double> numbers(column.begin(), column.end());
-  for (double& number : numbers) number = std::abs(number);
-  const auto middle = numbers.begin() + to_signed(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
-
 /// The spreads of residuals, bounded below by a fraction of the spreads at the start.
 Eigen::VectorXd spreads_above(const Eigen::MatrixXd& residuals, const LossOptions& loss,
-                              const Eigen::VectorXd& at_start) {
-  Eigen::VectorXd spreads = spreads_of(residuals, loss);
+                              const Eigen::MatrixXd& counted, const Eigen::VectorXd& at_start) {
+  Eigen::VectorXd spreads = spreads_of(residuals, loss, counted);
   for (Eigen::Index k = 0; k < spreads.size(); ++k)
     spreads[k] = std::max(spreads[k], kLeastSpread * at_start[k]);
   return spreads.unaryExpr([](double spread) { return spread > 0.0 ? spread : 1.0; });
@@ -76,6 +62,7 @@ class WeightedCost final : public LeastSquaresModel {
         modelled_(std::move(modelled)),
         spreads_(fit->spreads),
         source_(*source),
+        counted_(source->counted()),
         observer_(observer),
         fit_(*fit) {}
 
@@ -102,7 +89,7 @@ class WeightedCost final : public LeastSquaresModel {
     take(x, point);
     trial.cost = point->value;
     trial.iteration = fit_.iterations;
-    trial.rms = rms_of(residuals_);
+    trial.rms = rms_of(residuals_, counted_);
     return notify(trial) ? Outcome::kUsable : stop({StatusCode::kCancelled, 0.0, "cancelled"});
   }
 
@@ -143,22 +130,18 @@ class WeightedCost final : public LeastSquaresModel {
   const FitPrior modelled_;
   const Eigen::VectorXd& spreads_;
   ResidualSource& source_;
+  const Eigen::MatrixXd counted_;
   const FitObserver& observer_;
   ResidualFit& fit_;
   Eigen::MatrixXd residuals_, jacobian_;
   bool is_begun_ = false;
 };
 
-/// Inertias whose residuals are linear in the inertial numbers, as efforts are and motions are not.
-std::vector<InertiaPrior> linear_inertias(const FitProblem& problem, const ResidualSource& source) {
-  if (source.own_unknowns() > 0) return {};
-  return unbounded_inertias(problem.prior, problem.lower, problem.upper);
-}
-
 void search(const FitProblem& problem, ResidualSource* source, const FitObserver& observer,
             ResidualFit* fit) {
   source->count_by(fit->spreads, problem.loss);
-  const std::vector<InertiaPrior> inertias = linear_inertias(problem, *source);
+  const std::vector<InertiaPrior> inertias =
+      unbounded_inertias(problem.prior, problem.lower, problem.upper);
   FitPrior modelled = problem.prior;
   modelled.inertias.erase(std::remove_if(modelled.inertias.begin(), modelled.inertias.end(),
                                          [&inertias](const InertiaPrior& prior) {
@@ -234,7 +217,7 @@ std::vector<ScreenedPoint> screen(const FitProblem& problem, const MultistartOpt
     }
     ++searches->screened;
     if (status.ok())
-      usable.push_back({x, mean_spread(residuals, problem.loss), is_start});
+      usable.push_back({x, mean_spread(residuals, problem.loss, source->counted()), is_start});
     else
       ++searches->unusable;
     is_start = false;
@@ -258,27 +241,18 @@ std::vector<double> scaled(const FitProblem& problem, const Eigen::VectorXd& x) 
   return result;
 }
 
-StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const LossOptions& loss) {
+StartResult describe(const ScreenedPoint& point, const ResidualFit& fit, const LossOptions& loss,
+                     const Eigen::MatrixXd& counted) {
   const bool has_point = fit.residuals.size() > 0;
   StartResult start{point.x,        has_point ? fit.x : point.x,
                     point.spread,   point.spread,
                     fit.status,     fit.termination,
                     fit.evaluations};
-  if (has_point) start.objective = mean_spread(fit.residuals, loss);
+  if (has_point) start.objective = mean_spread(fit.residuals, loss, counted);
   return start;
 }
 
 }  // namespace
-
-Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
-  // Standard deviation over median magnitude of a normal variable.
-  constexpr double kNormalMedian = 1.4826;
-  if (loss.kind == LossKind::kSquare) return rms_of(residuals);
-  Eigen::VectorXd spreads(residuals.cols());
-  for (Eigen::Index k = 0; k < spreads.size(); ++k)
-    spreads[k] = kNormalMedian * median_magnitude(residuals.col(k));
-  return spreads;
-}
 
 WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian,
                         const Eigen::VectorXd& spreads, const LossOptions& loss) {
@@ -319,12 +293,14 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
     fit.termination = fit.status.code == StatusCode::kCancelled ? "cancelled" : "start_failed";
     return fit;
   }
-  const Eigen::VectorXd rms_at_start = rms_of(fit.start_residuals);
-  fit.spreads = spreads_above(fit.start_residuals, problem.loss, rms_at_start);
+  const Eigen::MatrixXd counted = source->counted();
+  const Eigen::VectorXd rms_at_start = rms_of(fit.start_residuals, counted);
+  fit.spreads = spreads_above(fit.start_residuals, problem.loss, counted, rms_at_start);
   for (int pass = 0; pass < kMostPasses; ++pass) {
     search(problem, source, observer, &fit);
     if (!fit.status.ok() || fit.evaluations >= problem.max_evaluations) break;
-    const Eigen::VectorXd spreads = spreads_above(fit.residuals, problem.loss, rms_at_start);
+    const Eigen::VectorXd spreads =
+        spreads_above(fit.residuals, problem.loss, counted, rms_at_start);
     const bool are_spreads_settled =
         ((spreads - fit.spreads).array().abs() <=
          spread_tolerance(problem, fit.residuals.rows()) * spreads.array())
@@ -340,14 +316,11 @@ ResidualFit fit_residuals(const FitProblem& problem, ResidualSource* source,
   return fit;
 }
 
-double mean_spread(const Eigen::MatrixXd& residuals, const LossOptions& loss) {
-  return std::exp(spreads_of(residuals, loss).array().log().mean());
-}
-
 ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& options,
                             ResidualSource* source, const FitObserver& observer,
                             FitSearches* searches) {
   if (options.starts == 0) return fit_residuals(problem, source, observer);
+  const Eigen::MatrixXd counted = source->counted();
   StudyStart start;
   start.status = source->evaluate(problem.start, &start.residuals, nullptr);
   ResidualFit best;
@@ -366,12 +339,12 @@ ResidualFit fit_from_starts(const FitProblem& problem, const MultistartOptions& 
         fit_residuals(from, source, numbered, point.is_start ? &start.residuals : nullptr);
     evaluations += fit.evaluations;
     failed += fit.failed_evaluations;
-    searches->starts.push_back(describe(point, fit, problem.loss));
+    searches->starts.push_back(describe(point, fit, problem.loss, counted));
     ends.push_back(scaled(problem, searches->starts.back().rho));
     const bool is_better =
         fit.residuals.size() > 0 &&
-        (best.residuals.size() == 0 ||
-         mean_spread(fit.residuals, problem.loss) < mean_spread(best.residuals, problem.loss));
+        (best.residuals.size() == 0 || mean_spread(fit.residuals, problem.loss, counted) <
+                                           mean_spread(best.residuals, problem.loss, counted));
     if (fit.status.code == StatusCode::kCancelled) interruption = fit.status;
     if (is_better || best.residuals.size() == 0) best = std::move(fit);
     if (!interruption.ok()) break;

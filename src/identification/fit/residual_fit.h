@@ -10,6 +10,7 @@
 #include "description/identification.h"
 #include "identification/fit/fit_prior.h"
 #include "identification/fit/residual_source.h"
+#include "identification/fit/residual_spreads.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/optimizer_options.h"
 
@@ -26,10 +27,6 @@ struct WeightedResiduals {
 /// @param spreads positive, one per output. @param jacobian may be null
 WeightedResiduals weigh(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd* jacobian,
                         const Eigen::VectorXd& spreads, const LossOptions& loss);
-
-/// The spread of each output's residuals: their root mean square; with a robust loss 1.4826 times
-/// the median of their magnitudes.
-Eigen::VectorXd spreads_of(const Eigen::MatrixXd& residuals, const LossOptions& loss);
 
 /// One evaluation of a fit, for progress.
 struct FitTrial {
@@ -93,10 +90,6 @@ struct FitSearches {
   /// number of points evaluated to choose the starts, and of these the number of failed points
   int screened = 0, unusable = 0;
 };
-
-/// The geometric mean over the outputs of the spreads of their residuals. It ranks fits from
-/// several starts; doc/theory.md (39a).
-double mean_spread(const Eigen::MatrixXd& residuals, const LossOptions& loss);
 
 /// fit_residuals() from several starts, `multistart:` of the study: residuals are computed at
 /// points of the sampler within the bounds, the study's own start first, and the best ones start

@@ -81,6 +81,19 @@ Eigen::Index StackedResiduals::own_unknowns() const {
   return sum;
 }
 
+Eigen::MatrixXd StackedResiduals::counted() const {
+  Eigen::MatrixXd result;
+  Eigen::Index row = 0;
+  for (const Part& part : parts_) {
+    const Eigen::MatrixXd counted = part.residuals->counted();
+    if (counted.size() > 0 && result.size() == 0)
+      result = Eigen::MatrixXd::Ones(recorded_.rows(), recorded_.cols());
+    if (counted.size() > 0) result.middleRows(row, counted.rows()) = counted;
+    row += part.residuals->rows();
+  }
+  return result;
+}
+
 double StackedResiduals::inner_decrease() const {
   double sum = 0.0;
   for (const Part& part : parts_) sum += part.residuals->inner_decrease();

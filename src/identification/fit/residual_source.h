@@ -54,6 +54,9 @@ class ResidualSource {
   /// Number of residuals of each piece with unknowns of its own, in the order of the rows; pieces
   /// do not cross from one recording to the next. lengths() without such unknowns.
   virtual const SeriesLengths& pieces() const { return lengths(); }
+  /// One for each residual that counts, zero for others, rows x outputs; empty: all count.
+  /// Residuals that do not count are zero, and so are their derivatives.
+  virtual Eigen::MatrixXd counted() const { return {}; }
   /// Decrease of the sum of rho(r / s) by the best unknowns at the last point evaluated with a
   /// Jacobian, to first order.
   virtual double inner_decrease() const { return 0.0; }
@@ -86,8 +89,10 @@ class RecordingResiduals : public ResidualSource {
   virtual std::vector<double> times() const = 0;
   /// The recorded outputs; rows() x outputs. Residuals are computed minus recorded.
   virtual const Eigen::MatrixXd& recorded() const = 0;
+  /// Number of outputs that are recorded signals; they stand behind the others.
+  virtual std::size_t signals() const { return 0; }
   /// The part of recorded() that says something about x: without its mean; without what unknowns of
-  /// the source's own fit for any x.
+  /// the source's own fit for any x. Zero where residuals do not count.
   virtual Eigen::MatrixXd variation() const;
   /// Returns one entry per fitted delay whose column of the Jacobian is the slope of a recorded
   /// effort. @param x a point at which residuals can be computed
@@ -95,7 +100,11 @@ class RecordingResiduals : public ResidualSource {
 };
 
 inline Eigen::MatrixXd RecordingResiduals::variation() const {
-  return recorded().rowwise() - recorded().colwise().mean();
+  const Eigen::MatrixXd count = counted();
+  if (count.size() == 0) return recorded().rowwise() - recorded().colwise().mean();
+  const Eigen::RowVectorXd means =
+      recorded().cwiseProduct(count).colwise().sum().cwiseQuotient(count.colwise().sum());
+  return (recorded().rowwise() - means).cwiseProduct(count);
 }
 
 inline std::vector<DelaySignal> RecordingResiduals::delay_signals(const Eigen::VectorXd& /*x*/) {
@@ -128,6 +137,8 @@ class StackedResiduals final : public RecordingResiduals {
   void obey(const std::atomic<bool>* cancel) override;
   void count_by(const Eigen::VectorXd& spreads, const LossOptions& loss) override;
   Eigen::Index own_unknowns() const override;
+  Eigen::MatrixXd counted() const override;
+  std::size_t signals() const override { return parts_.front().residuals->signals(); }
   double inner_decrease() const override;
   std::vector<DelaySignal> delay_signals(const Eigen::VectorXd& x) override;
 

@@ -108,6 +108,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
   independent_ = independent_joints(system, joints, positions_of_some(recordings_.front(), joints));
   const std::vector<MotionOutput> outputs = motion_outputs(system, joints, recordings_);
   for (const MotionOutput& output : outputs) names_.push_back(output.name());
+  signals_ = recordings_.front().signals.size();
   Eigen::Index rows = 0;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     const JointRecording& recording = recordings_[r];
@@ -120,8 +121,7 @@ MotionResiduals::MotionResiduals(const CompiledSystem& system, const FitVariable
     efforts_.emplace_back();
     for (const MotionOutput& output : outputs) {
       std::optional<RecordedEffort>& effort = efforts_.back().emplace_back();
-      if (output.quantity == MeasuredQuantity::kEffort)
-        effort.emplace(times, recording.find(output.joint)->effort);
+      if (output.is_effort()) effort.emplace(times, recording.find(output.joint)->effort);
     }
     const Eigen::Index begin = rows;
     for (std::size_t k = 0; k < segments_.back().size(); ++k) {
@@ -157,7 +157,7 @@ Eigen::MatrixXd MotionResiduals::variation() const {
     const Segment& segment = segments_[place.recording][place.segment];
     const std::vector<MotionOutput>& outputs = systems_[place.recording].outputs;
     for (std::size_t k = 0; k < outputs.size(); ++k)
-      if (outputs[k].quantity != MeasuredQuantity::kEffort)
+      if (!outputs[k].signal && !outputs[k].is_effort())
         result.col(to_signed(k)).segment(place.row, segment.recorded.rows()) =
             without_line(segment.times, segment.recorded.col(to_signed(k)),
                          outputs[k].quantity == MeasuredQuantity::kPosition);

@@ -12,7 +12,7 @@
 namespace codesign {
 
 /// Residuals of several recordings of one robot as functions of x, with the motion simulated in
-/// segments: computed minus recorded positions, velocities, and efforts of controllers,
+/// segments: computed minus recorded positions, velocities, efforts of controllers, and signals,
 /// doc/theory.md (40)-(43). The start of each segment is free. Without a Jacobian, evaluate() uses
 /// the best start of each segment. With a Jacobian, starts and x are unknowns of one Gauss-Newton
 /// step: the starts take their part of the step from the best point so far, and the Jacobian
@@ -39,8 +39,9 @@ class MotionResiduals final : public RecordingResiduals {
   std::vector<double> times() const override;
   const Eigen::MatrixXd& recorded() const override { return recorded_; }
   /// A start alone, without any force, moves on a straight line: positions of each segment without
-  /// their line, velocities without their mean; efforts without the mean of all.
+  /// their line, velocities without their mean; efforts and signals without the mean of all.
   Eigen::MatrixXd variation() const override;
+  std::size_t signals() const override { return signals_; }
   Status begin(const Eigen::VectorXd& x) override;
   /// A segment that cannot be simulated fails the evaluation; the status names it.
   Status evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* residuals,
@@ -99,6 +100,7 @@ class MotionResiduals final : public RecordingResiduals {
   LossOptions loss_;
   Eigen::VectorXd spreads_;
   std::vector<std::string> independent_, names_;
+  std::size_t signals_ = 0;             ///< among the outputs
   std::vector<SegmentSystem> systems_;  ///< per recording
   /// [recording][output], of efforts
   std::vector<std::vector<std::optional<RecordedEffort>>> efforts_;

@@ -6,6 +6,7 @@
 
 #include "description/excursions.h"
 #include "description/study.h"
+#include "identification/effort/compared_recordings.h"
 #include "math/arrays.h"
 #include "mechanism/motor_sides.h"
 #include "text/number_text.h"
@@ -34,14 +35,13 @@ class SegmentStudy {
   }
 
   void watch(const MotionOutput& output) {
-    WatchedSignal watched;
-    watched.signal = {output.name(),
-                      {{1.0, output.joint,
-                        kMeasuredQuantityNames[to_index(static_cast<int>(output.quantity))], ""}},
-                      {}};
-    watched.element = "identify.data";
-    watched.before = study_.duration;
-    study_.watched.push_back(std::move(watched));
+    const SignalDescription of_joint{
+        output.name(),
+        {{1.0, output.joint, kMeasuredQuantityNames[to_index(static_cast<int>(output.quantity))],
+          ""}},
+        {}};
+    study_.watched.push_back(
+        compared_signal(output.signal ? *output.signal : of_joint, study_.duration));
   }
 
   void drive(const std::string& joint, std::shared_ptr<const SampledFunction> samples) {
@@ -155,6 +155,14 @@ void refuse_sampled(const Study& study) {
 
 }  // namespace
 
+const std::vector<double>& MotionOutput::recorded(const JointRecording& in) const {
+  if (!signal) return in.find(joint)->of(quantity);
+  return std::find_if(
+             in.signals.begin(), in.signals.end(),
+             [this](const SignalSamples& samples) { return samples.signal.text == signal->text; })
+      ->values;
+}
+
 std::vector<double> SegmentSystem::parameters(const FitVariables& variables,
                                               const Eigen::VectorXd& x,
                                               const Eigen::VectorXd& start) const {
@@ -184,6 +192,8 @@ std::vector<MotionOutput> motion_outputs(const CompiledSystem& of,
     if (joint.with_effort && is_driven(of.whole_study(), joint.name))
       outputs.push_back({joint.name, MeasuredQuantity::kEffort});
   }
+  for (const SignalDescription& signal : require_same_signals(recordings))
+    outputs.push_back({"", MeasuredQuantity::kPosition, signal});
   return outputs;
 }
 

@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "description/signal.h"
 #include "equations/compiled_system.h"
 #include "identification/effort/driven_system.h"
 #include "identification/fit/fit_variables.h"
@@ -14,12 +16,19 @@
 
 namespace codesign {
 
-/// A recorded quantity of a joint that is compared with the simulated motion.
+/// A recorded quantity of a joint, or a recorded signal, that is compared with the simulated
+/// motion.
 struct MotionOutput {
   std::string joint;
   MeasuredQuantity quantity = MeasuredQuantity::kPosition;
+  std::optional<SignalDescription> signal = std::nullopt;  ///< in place of joint and quantity
 
-  std::string name() const { return joint + "/" + kMeasuredQuantityNames[to_index(quantity)]; }
+  std::string name() const {
+    return signal ? signal->text : joint + "/" + kMeasuredQuantityNames[to_index(quantity)];
+  }
+  bool is_effort() const { return !signal && quantity == MeasuredQuantity::kEffort; }
+  /// As it was recorded, one number per time.
+  const std::vector<double>& recorded(const JointRecording& in) const;
 };
 
 /// A mechanism for simulating one recording in segments, doc/theory.md (40): recorded efforts drive
@@ -47,7 +56,7 @@ struct SegmentSystem {
 
 /// The outputs to compare with recordings that all have `joints`: positions, velocities that all
 /// recordings have, and recorded efforts of joints that a controller or a given motion of the study
-/// drives.
+/// drives; then the signals of the recordings.
 std::vector<MotionOutput> motion_outputs(const CompiledSystem& of,
                                          const std::vector<MeasuredJoint>& joints,
                                          const std::vector<JointRecording>& recordings);

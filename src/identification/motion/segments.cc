@@ -210,10 +210,9 @@ Eigen::MatrixXd recorded_at(const JointRecording& recording, const SegmentSystem
   Eigen::MatrixXd recorded(to_signed(samples.size()), to_signed(of.outputs.size()));
   for (std::size_t output = 0; output < of.outputs.size(); ++output) {
     const MotionOutput& at = of.outputs[output];
-    const std::vector<double>& column = recording.find(at.joint)->of(at.quantity);
-    const double scale = at.quantity == MeasuredQuantity::kEffort
-                             ? variables.sensor(at.joint, variables.start()).start_scale
-                             : 1.0;
+    const std::vector<double>& column = at.recorded(recording);
+    const double scale =
+        at.is_effort() ? variables.sensor(at.joint, variables.start()).start_scale : 1.0;
     for (std::size_t k = 0; k < samples.size(); ++k)
       recorded(to_signed(k), to_signed(output)) = scale * column[samples[k]];
   }

@@ -61,6 +61,17 @@ void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
                           "a number in rad or m"});
 }
 
+/// A simulation passes through rest, whatever is compared there.
+void refuse_masks(const IdentificationDescription& description) {
+  if (description.residual == ResidualKind::kEffort) return;
+  for (const auto* list : {&description.data, &description.holdout})
+    for (const RecordingDescription& recording : *list)
+      for (const SpeedMask& mask : recording.masks)
+        throw InputError({mask.where, recording.element + ".mask",
+                          "residuals in motion simulate rest, too: no sample is left out", "",
+                          "no mask, or residual: effort"});
+}
+
 LossOptions read_loss(const YamlValue& loss) {
   LossOptions options;
   read_options(loss, &options, {"type"});
@@ -122,6 +133,7 @@ IdentificationDescription read_identification(const YamlValue& identify,
     refuse_fitted_starts(description.holdout);
   }
   OptionReader{identify}("residual", kResidualNames, description.residual);
+  refuse_masks(description);
   description.segment = segment_of(identify);
   if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
   if (const auto joints = identify.find("joints"))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/arrays.h"
+#include "mechanism/signal_catalog.h"
 #include "reading/study/entry_keys.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
@@ -132,12 +133,47 @@ void read_settings(const YamlValue& set, const RecordingContext& in,
   }
 }
 
+/// `mask: {speed: 0.01}`, or `mask: {speed: {JOINT: 0.01}}`.
+void read_mask(const YamlValue& mask, const RecordingContext& in, RecordingDescription* recording) {
+  mask.require_keys({"speed"}, {});
+  const YamlValue speed = mask.at("speed");
+  const auto add = [recording](const std::string& joint, const YamlValue& value) {
+    recording->masks.push_back({joint, read_above_zero(value, " rad/s or m/s"), value.where()});
+  };
+  if (!speed.is_map()) return add("", speed);
+  for (const auto& [name, value] : speed.entries())
+    add(scalar_joint(name, in.robot, value).name, value);
+}
+
+/// An expression of a signal reads signals, parameters and the time.
+void require_parameters(const SignalDescription& signal, const Study& study,
+                        const YamlValue& value) {
+  std::vector<std::string> known{"t"};
+  for (const Parameter& parameter : study.parameters) known.push_back(parameter.name);
+  for (const std::string& name : signal.formula ? signal.formula->names : known)
+    if (name.find('/') == std::string::npos &&
+        std::find(known.begin(), known.end(), name) == known.end())
+      throw unknown_name(value.where(), value.path(), "parameter", name, known);
+}
+
+/// Signals of the model with their columns.
+void read_signals(const YamlValue& signals, const RecordingContext& in,
+                  RecordingDescription* recording) {
+  for (const auto& [name, value] : signals.entries()) {
+    SignalDescription signal = parse_signal(name, value.where(), value.path());
+    check_signal(signal, in.robot, in.study.controllers, value.path());
+    require_parameters(signal, in.study, value);
+    recording->signals.push_back({std::move(signal), read_column(value)});
+  }
+}
+
 /// The keys of both kinds of files after those of one kind.
 RecordingKeys with_common_keys(RecordingKeys keys) {
   return with(std::move(keys),
               RecordingKeys{number_key("from", &RecordingDescription::from),
                             number_key("to", &RecordingDescription::to),
                             choice_key("gaps", kGapRuleNames, &RecordingDescription::gaps),
+                            {"mask", false, read_mask},
                             {"start", false, read_start_positions},
                             {"set", false, read_settings}});
 }
@@ -157,7 +193,8 @@ const RecordingKeys& table_keys() {
        {"columns", false,
         [](const YamlValue& value, const RecordingContext& in, RecordingDescription* of) {
           read_columns(value, in.robot, of);
-        }}});
+        }},
+       {"signals", false, read_signals}});
   return kKeys;
 }
 

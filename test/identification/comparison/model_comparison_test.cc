@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <random>
 
+#include "engine/thread_engine.h"
 #include "identification/identify.h"
 #include "identification/swinging_arm.h"
 #include "problem/load_problem.h"
@@ -85,8 +87,8 @@ double false_alarms(int runs, bool is_white) {
   const Problem small = swinging_problem(),
                 large = swinging_problem("{csv: data.csv}", "  joints: {hinge: {offset: {}}}\n");
   const JointRecording clean = SwingingRig().record("identify.data[0]");
-  int alarms = 0;
-  for (int run = 0; run < runs; ++run) {
+  std::atomic<int> alarms{0};
+  side_by_side(static_cast<std::size_t>(runs), 2, [&](std::size_t run) {
     StudyRecordings recordings;
     recordings.data = {clean};
     std::mt19937 random(static_cast<unsigned>(run) + 1);
@@ -102,7 +104,7 @@ double false_alarms(int runs, bool is_white) {
     const ModelComparison comparison = compare_models(few, more);
     EXPECT_TRUE(comparison.is_nested) << comparison.refusal;
     alarms += comparison.probability < 0.05 ? 1 : 0;
-  }
+  });
   return static_cast<double>(alarms) / runs;
 }
 

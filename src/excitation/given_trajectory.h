@@ -1,0 +1,20 @@
+// Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "excitation/excited_motion.h"
+#include "recordings/joint_recording.h"
+#include "recordings/measured_motion.h"
+
+namespace codesign {
+
+/// The motion of a table at equal steps, filtered as recordings are, all samples.
+/// @throws InputError for one of the joints without positions
+MeasuredMotion given_motion(const JointRecording& given, const FilterOptions& options,
+                            const std::vector<MeasuredJoint>& joints);
+
+/// The motion of these joints. @param motion of given_motion()
+DrivePath path_of(const MeasuredMotion& motion, const std::vector<MeasuredJoint>& joints);
+
+}  // namespace codesign
