@@ -7,12 +7,17 @@
 #include "integration/energy_balance.h"
 #include "integration/touching.h"
 #include "mechanism_codesign/simulation.h"
-#include "statics/statics_cases.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
 constexpr double kGravity = 9.81, kRadius = 0.05, kInertia = 0.001;
+
+Problem problem_of(const std::string& urdf, const std::string& study) {
+  return load_problem({"ball.urdf", urdf}, {}, {"ball.yaml", study}, {}, TrajectoryLoader(),
+                      FileLoader());
+}
 
 /// The signals at the end of a study.
 std::vector<double> at_end(const Problem& problem, double duration,
@@ -35,12 +40,12 @@ TEST(Contact, LeavesWithTheSpeedOfItsRestitution) {
   const double speed = 1.3;
   for (const double e : {0.9, 0.5}) {
     const Problem problem =
-        loaded(free_ball("", touching_ground("shape='plane'",
-                                             "model='gonthier' impact_velocity='1.3' "
-                                             "restitution='" +
-                                                 std::to_string(e) + "'")),
-               "gravity: [0, 0, 0]\n" +
-                   study(0.1, "translation: [0, 0, 0.06], linear_velocity: [0, 0, -1.3]"));
+        problem_of(free_ball("", touching_ground("shape='plane'",
+                                                 "model='gonthier' impact_velocity='1.3' "
+                                                 "restitution='" +
+                                                     std::to_string(e) + "'")),
+                   "gravity: [0, 0, 0]\n" +
+                       study(0.1, "translation: [0, 0, 0.06], linear_velocity: [0, 0, -1.3]"));
     const std::vector<double> end =
         at_end(problem, 0.1, {"ball/velocity/z", "touch/gap", "touch/gap_rate"});
     EXPECT_NEAR(end[0], e * speed, 1e-8) << e;
@@ -58,12 +63,12 @@ TEST(Contact, AThrownBallComesToRoll) {
       "<codesign:friction mu_static='0.3' mu_dynamic='0.3' transition_velocity='0.001'/>";
   for (const char* coordinates : {"joint", "absolute"}) {
     const Problem problem =
-        loaded(free_ball("", touching_ground("shape='plane'", "", friction)),
-               "duration: 0.3\ninitial_state: {free: {translation: [0, 0, " +
-                   std::to_string(kRadius - depth) +
-                   "], linear_velocity: [1, 0, 0]}}\nsolver: {relative_tolerance: 1.0e-9, "
-                   "absolute_tolerance: 1.0e-11, coordinates: " +
-                   coordinates + "}\n");
+        problem_of(free_ball("", touching_ground("shape='plane'", "", friction)),
+                   "duration: 0.3\ninitial_state: {free: {translation: [0, 0, " +
+                       std::to_string(kRadius - depth) +
+                       "], linear_velocity: [1, 0, 0]}}\nsolver: {relative_tolerance: 1.0e-9, "
+                       "absolute_tolerance: 1.0e-11, coordinates: " +
+                       coordinates + "}\n");
     const std::vector<double> sliding =
         at_end(problem, 0.05, {"ball/velocity/x", "touch/sliding_speed", "touch/friction"});
     EXPECT_NEAR(sliding[0], speed - 0.3 * kGravity * 0.05, 1e-3);
@@ -142,7 +147,7 @@ TEST(Contact, OfSeveralPointsTakesExactlyItsWork) {
 // For arrows and messages: the whole force on the ball, where it acts.
 TEST(Contact, AFrameHasItsForce) {
   const double depth = std::pow(kGravity / 1e6, 2.0 / 3.0);
-  const Problem problem = loaded(
+  const Problem problem = problem_of(
       free_ball("", touching_ground("shape='plane'", "",
                                     "<codesign:friction mu_static='0.3' mu_dynamic='0.3'/>")),
       "duration: 0.1\ninitial_state: {free: {translation: [0.2, 0, " +
@@ -167,12 +172,12 @@ TEST(Contact, AHingeWithClearanceIsNearlyAHinge) {
   const double duration = 0.7;
   const std::string link = bar("arm"), start = "duration: 0.7\ninitial_state: {j: {";
   const std::vector<double> ideal =
-      at_end(loaded(robot(link + hinge("j", "ground", "arm", "0 0 0")),
-                    start + "position: 0.5}}\nsolver: {relative_tolerance: 1.0e-9}\n"),
+      at_end(problem_of(robot(link + hinge("j", "ground", "arm", "0 0 0")),
+                        start + "position: 0.5}}\nsolver: {relative_tolerance: 1.0e-9}\n"),
              duration, {"arm/velocity/x", "arm/angular_velocity/y"});
   double last = 0.0;
   for (const double clearance : {1e-3, 1e-5}) {
-    const Problem problem = loaded(
+    const Problem problem = problem_of(
         robot(link +
               "<joint name='j' type='planar'><parent link='ground'/><child link='arm'/><axis "
               "xyz='0 1 0'/></joint><codesign:contact name='bearing' stiffness='1e8' "
@@ -203,7 +208,7 @@ TEST(Contact, ActsOnBothBodiesAndKeepsTheirMomentum) {
       "size='0.2 0.1 0.1'/><codesign:friction mu_static='0.4' mu_dynamic='0.3'/>"
       "</codesign:contact>");
   for (const char* coordinates : {"joint", "absolute"}) {
-    const Problem problem = loaded(
+    const Problem problem = problem_of(
         urdf,
         "duration: 0.3\ngravity: [0, 0, 0]\ninitial_state: {fa: {translation: [-0.4, 0, 0], "
         "linear_velocity: [2, 0, 0.1], angular_velocity: [0, 3, 1]}, fb: {translation: [0, 0.02, "

@@ -10,7 +10,7 @@
 #include "integration/playing.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
-#include "statics/statics_cases.h"
+#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
@@ -43,6 +43,11 @@ Reference in_the_tree() {
           5};
 }
 
+Problem problem_of(const std::string& urdf, const std::string& study) {
+  return load_problem({"playing.urdf", urdf}, {}, {"playing.yaml", study}, {}, TrajectoryLoader(),
+                      FileLoader());
+}
+
 constexpr const char* kTight =
     "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-13, sensitivity_tolerance: "
     "1.0e-8, maximum_steps: 1000000";
@@ -50,7 +55,8 @@ constexpr const char* kTight =
 TEST(ClearanceGradient, IsThatOfAnIndependentModel) {
   for (const Reference& of : {in_the_loop(), in_the_tree()})
     for (const char* kind : {"", ", coordinates: absolute", ", gradient: adjoint"}) {
-      const Problem problem = loaded(of.urdf, playing_study(kTight + std::string(kind) + "}\n"));
+      const Problem problem =
+          problem_of(of.urdf, playing_study(kTight + std::string(kind) + "}\n"));
       Evaluator evaluator(problem);
       const Evaluation run = evaluator.evaluate(problem.start(), true);
       ASSERT_TRUE(run.status.ok()) << of.name << kind << run.status.cause;
@@ -65,7 +71,7 @@ TEST(ClearanceGradient, IsThatOfAnIndependentModel) {
 
 TEST(ClearanceGradient, TheMotionIsThatOfAnIndependentModel) {
   for (const Reference& of : {in_the_loop(), in_the_tree()}) {
-    const Problem problem = loaded(of.urdf, playing_study(kTight + std::string("}\n")));
+    const Problem problem = problem_of(of.urdf, playing_study(kTight + std::string("}\n")));
     Simulation simulation(problem, problem.parameters(), {"turn/position", "slider/position/x"});
     ASSERT_TRUE(simulation.start().ok()) << of.name;
     const Status status = simulation.advance_to(0.03);
@@ -78,7 +84,7 @@ TEST(ClearanceGradient, TheMotionIsThatOfAnIndependentModel) {
 }
 
 TEST(ClearanceGradient, AgreesWithTheComplexStepThroughTheSameSteps) {
-  const Problem problem = loaded(in_the_loop().urdf, playing_study(""));
+  const Problem problem = problem_of(in_the_loop().urdf, playing_study(""));
   const GradientCheck check = check_gradient(problem, problem.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-8);
