@@ -9,17 +9,11 @@
 #include "integration/mechanisms.h"
 #include "integration/playing.h"
 #include "mechanism_codesign/simulation.h"
-#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
-constexpr double kGravity = 9.81;
-
-Problem problem_of(const std::string& urdf, const std::string& study) {
-  return load_problem({"play.urdf", urdf}, {}, {"play.yaml", study}, {}, TrajectoryLoader(),
-                      FileLoader());
-}
+constexpr double kEarthGravity = 9.81;
 
 /// The signals of a run at one instant.
 std::vector<double> at(const Problem& problem, double time,
@@ -37,9 +31,9 @@ TEST(Clearance, StartsAsTheIdealJoint) {
   const std::vector<std::string> signals = {"turn/position", "elbow/position", "slider/position/x",
                                             "turn/velocity", "elbow/velocity", "slider/velocity/x"};
   const std::vector<double> ideal =
-      at(problem_of(playing_slider_crank("", ""), playing_study("")), 0.0, signals);
+      at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.0, signals);
   for (const bool in_loop : {true, false}) {
-    const Problem problem = problem_of(
+    const Problem problem = playing_problem(
         in_loop ? playing_slider_crank("", kPlayingPin) : playing_slider_crank(kPlayingPin, ""),
         playing_study(""));
     const std::vector<double> start = at(problem, 0.0, signals);
@@ -57,8 +51,9 @@ TEST(Clearance, StartsAsTheIdealJoint) {
 TEST(Clearance, OfPlainZeroIsTheIdealJoint) {
   const char* const none = "<codesign:clearance radial='0'/>";
   const std::vector<std::string> signals = {"turn/position", "slider/position/x"};
-  EXPECT_EQ(at(problem_of(playing_slider_crank("", ""), playing_study("")), 0.03, signals),
-            at(problem_of(playing_slider_crank(none, none), playing_study("")), 0.03, signals));
+  EXPECT_EQ(
+      at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.03, signals),
+      at(playing_problem(playing_slider_crank(none, none), playing_study("")), 0.03, signals));
 }
 
 // A smaller clearance in a stiffer bearing, whose rattle friction ends, moves like the ideal joint.
@@ -68,8 +63,8 @@ TEST(Clearance, TendsToTheIdealJoint) {
                              stiffness + "' dissipation='20'/>";
     const std::vector<std::string> signals = {"turn/position"};
     return std::abs(
-        at(problem_of(playing_slider_crank("", play), playing_study("")), 0.03, signals)[0] -
-        at(problem_of(playing_slider_crank("", ""), playing_study("")), 0.03, signals)[0]);
+        at(playing_problem(playing_slider_crank("", play), playing_study("")), 0.03, signals)[0] -
+        at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.03, signals)[0]);
   };
   const double wide = miss("1e-4", "1e9"), narrow = miss("1e-6", "1e11");
   EXPECT_LT(wide, 0.02);
@@ -90,10 +85,10 @@ TEST(Clearance, APendulumFallsAndRestsOnItsBearing) {
   const double c = 1e-3, stiffness = 1e6;
   const std::string play =
       "<codesign:clearance radial='1e-3' radius='0.02' stiffness='1e6' dissipation='30'/>";
-  const double flight = std::sqrt(2.0 * c / kGravity),
-               depth = std::pow(kGravity / stiffness, 2.0 / 3.0);
+  const double flight = std::sqrt(2.0 * c / kEarthGravity),
+               depth = std::pow(kEarthGravity / stiffness, 2.0 / 3.0);
   for (const bool is_ball : {false, true}) {
-    const Problem problem = problem_of(
+    const Problem problem = playing_problem(
         is_ball
             ? on_pin("<joint name='free' type='floating'><parent link='ground'/><child "
                      "link='arm'/></joint><loop name='pin' type='codesign:spherical'><predecessor "
@@ -106,19 +101,19 @@ TEST(Clearance, APendulumFallsAndRestsOnItsBearing) {
                      ""),
         "duration: 0.5\nsolver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-12}\n");
     EXPECT_NEAR(at(problem, 0.9 * flight, {"arm/position/z"})[0],
-                -0.5 * kGravity * 0.81 * flight * flight, 1e-10)
+                -0.5 * kEarthGravity * 0.81 * flight * flight, 1e-10)
         << is_ball;
     const std::vector<double> rest =
         at(problem, 0.5, {"arm/position/z", "pin_clearance/gap", "pin_clearance/normal_force"});
     EXPECT_NEAR(rest[0], -c - depth, 1e-7) << is_ball;
     EXPECT_NEAR(rest[1], -depth, 1e-7) << is_ball;
-    EXPECT_NEAR(rest[2], kGravity, 1e-3) << is_ball;
+    EXPECT_NEAR(rest[2], kEarthGravity, 1e-3) << is_ball;
   }
 }
 
 // With axial clearance a hinge along gravity sinks by it.
 TEST(Clearance, AJournalSinksByItsAxialClearance) {
-  const Problem problem = problem_of(
+  const Problem problem = playing_problem(
       on_pin("<joint name='pin' type='continuous'><parent link='ground'/><child "
              "link='arm'/><axis xyz='0 0 1'/><codesign:clearance radial='1e-3' axial='2e-4' "
              "radius='0.02' stiffness='1e7' dissipation='30'/></joint>",
@@ -126,8 +121,8 @@ TEST(Clearance, AJournalSinksByItsAxialClearance) {
       "duration: 0.3\n");
   const std::vector<double> rest =
       at(problem, 0.3, {"pin_z/position", "pin_axial_clearance/normal_force", "pin_x/position"});
-  EXPECT_NEAR(rest[0], -2e-4 - std::pow(kGravity / 1e7, 2.0 / 3.0), 1e-6);
-  EXPECT_NEAR(rest[1], kGravity, 1e-2);
+  EXPECT_NEAR(rest[0], -2e-4 - std::pow(kEarthGravity / 1e7, 2.0 / 3.0), 1e-6);
+  EXPECT_NEAR(rest[1], kEarthGravity, 1e-2);
   EXPECT_NEAR(rest[2], 0.0, 1e-9);
 }
 
@@ -145,19 +140,21 @@ TEST(Clearance, ABlockRestsInItsGuide) {
   };
   const std::vector<std::string> signals = {"slide_x/position", "slide_turn/position",
                                             "slide_clearance/normal_force", "slide/position"};
-  const std::vector<double> flat = at(problem_of(block("0"), "duration: 0.4\n"), 0.4, signals);
-  const double depth = std::pow(kGravity / 4.0 / 1e7, 2.0 / 3.0);
+  const std::vector<double> flat = at(playing_problem(block("0"), "duration: 0.4\n"), 0.4, signals);
+  const double depth = std::pow(kEarthGravity / 4.0 / 1e7, 2.0 / 3.0);
   EXPECT_NEAR(flat[0], -5e-4 - depth, 1e-7);
   EXPECT_NEAR(flat[1], 0.0, 1e-9);
-  EXPECT_NEAR(flat[2], kGravity, 1e-2);
+  EXPECT_NEAR(flat[2], kEarthGravity, 1e-2);
   // The upper corner behind and the lower one in front carry it: lever 0.08 m over their distance.
-  const std::vector<double> tilted = at(problem_of(block("0.08"), "duration: 0.4\n"), 0.4, signals);
-  const double up = std::pow(0.3 * kGravity / 2.0 / 1e7, 2.0 / 3.0),
-               down = std::pow(1.3 * kGravity / 2.0 / 1e7, 2.0 / 3.0), turn = std::abs(tilted[1]);
+  const std::vector<double> tilted =
+      at(playing_problem(block("0.08"), "duration: 0.4\n"), 0.4, signals);
+  const double up = std::pow(0.3 * kEarthGravity / 2.0 / 1e7, 2.0 / 3.0),
+               down = std::pow(1.3 * kEarthGravity / 2.0 / 1e7, 2.0 / 3.0),
+               turn = std::abs(tilted[1]);
   EXPECT_NEAR(turn, (1e-3 + up + down) / 0.1, 5e-5);
-  EXPECT_NEAR(tilted[2],
-              kGravity * 0.16 * std::cos(turn) / (0.1 * std::cos(turn) - 0.04 * std::sin(turn)),
-              1e-2);
+  EXPECT_NEAR(
+      tilted[2],
+      kEarthGravity * 0.16 * std::cos(turn) / (0.1 * std::cos(turn) - 0.04 * std::sin(turn)), 1e-2);
 }
 
 TEST(Clearance, TakesExactlyItsWork) {

@@ -3,7 +3,15 @@
 
 #include <string>
 
+#include "problem/load_problem.h"
+
 namespace codesign {
+
+/// The problem of a model with clearance and a study.
+inline Problem playing_problem(const std::string& urdf, const std::string& study) {
+  return load_problem({"playing.urdf", urdf}, {}, {"playing.yaml", study}, {}, TrajectoryLoader(),
+                      FileLoader());
+}
 
 /// The clearance of the pins of playing_slider_crank().
 inline const char* const kPlayingPin =

@@ -10,12 +10,11 @@
 #include "integration/playing.h"
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/simulation.h"
-#include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
-struct Reference {
+struct PlayingReference {
   const char* name;
   std::string urdf;
   double objective, crank, slider;  ///< turn/position and slider/position/x at the end
@@ -23,7 +22,7 @@ struct Reference {
   std::size_t events;
 };
 
-Reference in_the_loop() {
+PlayingReference in_the_loop() {
   return {"in the loop",
           playing_slider_crank("", kPlayingPin),
           0.5665033211640,
@@ -33,7 +32,7 @@ Reference in_the_loop() {
           6};
 }
 
-Reference in_the_tree() {
+PlayingReference in_the_tree() {
   return {"in the tree",
           playing_slider_crank(kPlayingPin, ""),
           0.5140370261030,
@@ -43,20 +42,15 @@ Reference in_the_tree() {
           5};
 }
 
-Problem problem_of(const std::string& urdf, const std::string& study) {
-  return load_problem({"playing.urdf", urdf}, {}, {"playing.yaml", study}, {}, TrajectoryLoader(),
-                      FileLoader());
-}
-
 constexpr const char* kTight =
     "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-13, sensitivity_tolerance: "
     "1.0e-8, maximum_steps: 1000000";
 
 TEST(ClearanceGradient, IsThatOfAnIndependentModel) {
-  for (const Reference& of : {in_the_loop(), in_the_tree()})
+  for (const PlayingReference& of : {in_the_loop(), in_the_tree()})
     for (const char* kind : {"", ", coordinates: absolute", ", gradient: adjoint"}) {
       const Problem problem =
-          problem_of(of.urdf, playing_study(kTight + std::string(kind) + "}\n"));
+          playing_problem(of.urdf, playing_study(kTight + std::string(kind) + "}\n"));
       Evaluator evaluator(problem);
       const Evaluation run = evaluator.evaluate(problem.start(), true);
       ASSERT_TRUE(run.status.ok()) << of.name << kind << run.status.cause;
@@ -70,8 +64,8 @@ TEST(ClearanceGradient, IsThatOfAnIndependentModel) {
 }
 
 TEST(ClearanceGradient, TheMotionIsThatOfAnIndependentModel) {
-  for (const Reference& of : {in_the_loop(), in_the_tree()}) {
-    const Problem problem = problem_of(of.urdf, playing_study(kTight + std::string("}\n")));
+  for (const PlayingReference& of : {in_the_loop(), in_the_tree()}) {
+    const Problem problem = playing_problem(of.urdf, playing_study(kTight + std::string("}\n")));
     Simulation simulation(problem, problem.parameters(), {"turn/position", "slider/position/x"});
     ASSERT_TRUE(simulation.start().ok()) << of.name;
     const Status status = simulation.advance_to(0.03);
@@ -84,7 +78,7 @@ TEST(ClearanceGradient, TheMotionIsThatOfAnIndependentModel) {
 }
 
 TEST(ClearanceGradient, AgreesWithTheComplexStepThroughTheSameSteps) {
-  const Problem problem = problem_of(in_the_loop().urdf, playing_study(""));
+  const Problem problem = playing_problem(in_the_loop().urdf, playing_study(""));
   const GradientCheck check = check_gradient(problem, problem.start(), CheckMethod::kComplexStep);
   ASSERT_TRUE(check.status.ok()) << check.status.cause;
   EXPECT_LT(check.largest_relative_difference, 1e-8);
