@@ -10,8 +10,8 @@ namespace codesign {
 
 /// What a recording holds; each part is recorded when it is first needed.
 enum class EquationPart {
-  /// kResidual, kConstraintErrors, kSwitches, and what no other part has: kTurns, kEnergies, kRates,
-  /// kAccelerations and kLinearization
+  /// kResidual, kConstraintErrors, kSwitches, and what no other part has: kTurns, kEnergies,
+  /// kRates, kAccelerations and kLinearization
   kMotion,
   kSignals,  ///< kTerminal, the residuals of the objective and the watched signals
   kStart,    ///< kPlacement and the controllers' functions

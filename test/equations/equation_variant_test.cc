@@ -64,10 +64,8 @@ TEST(EquationVariant, KeepsTurnsAndFunctionsOfTimeThatAreUsed) {
   const std::shared_ptr<const CompiledSystem> still = compile(double_pendulum(), study("absolute"));
   EXPECT_EQ(still->equation_variant()->numbered(false).turns.size(), 2U)
       << "of both hinges, whose references each step sets";
-  EXPECT_TRUE(compile(double_pendulum(), study("joint"))
-                  ->equation_variant()
-                  ->numbered(false)
-                  .turns.empty())
+  EXPECT_TRUE(
+      compile(double_pendulum(), study("joint"))->equation_variant()->numbered(false).turns.empty())
       << "coordinates count whole turns themselves";
   EXPECT_TRUE(still->equation_variant()->numbered(false).functions.empty())
       << "constants are no functions of time";
