@@ -74,7 +74,8 @@ void CompiledEquations<T>::place(const VectorX<T>& theta, const VectorX<T>& thet
 
 template <class T>
 void CompiledEquations<T>::track_turns(State<T>* state) {
-  entries_.resize(to_index(system_.layout().drop_slot));
+  // The program sets those of cut pairs.
+  entries_.assign(state->turns.begin(), state->turns.begin() + system_.layout().drop_slot);
   run(EquationFunction::kTurns, *state, {entries_, {}, {}, {}});
   for (std::size_t k = 0; k < entries_.size(); ++k) state->turns[k] = value_of(entries_[k]);
 }

@@ -39,7 +39,7 @@ enum class EquationFunction : std::size_t {
   /// EquationVariant::has_accelerations()
   kAccelerations,
   kEnergies,   ///< body_energies(), their bodies; values only, with a forest
-  kTurns,      ///< the joint positions in State::turns; values only, with cut pairs
+  kTurns,      ///< those joint positions in State::turns that are of cut pairs; values only
   kMotionEnd,  ///< number of functions of the part
 
   kTerminal = 0,       ///< w

@@ -114,13 +114,7 @@ void EquationVariant::record_motion(EquationPart part, ResidualRecording* begun)
       return results;
     });
   at(EquationFunction::kTurns).has_derivatives = false;
-  if (part == EquationPart::kMotion && system_.layout().has_cuts())
-    record(EquationFunction::kTurns, [&] {
-      State<Traced> turned = equations->state;
-      equations->formulas.track_turns(&turned);
-      // Without the flags of dropped rows, which no step changes.
-      return std::vector<VectorX<Traced>>{vector(turned.turns).head(system_.layout().drop_slot)};
-    });
+  if (part == EquationPart::kMotion && system_.layout().has_cuts()) record_turns(equations);
   if (part == EquationPart::kMotion && system_.compresses_jacobian()) return;
   const bool rates_only =
       part == EquationPart::kRates || (part == EquationPart::kMotion && system_.has_rates_apart());
@@ -140,6 +134,26 @@ void EquationVariant::record_motion(EquationPart part, ResidualRecording* begun)
   if (rates_only && system_.layout().m == 0 &&
       is_affine(*recording_, at(EquationFunction::kRates).guards, d.rate, equations->g))
     record_accelerations(d.rate, equations);
+}
+
+void EquationVariant::record_turns(EquationRecorder* equations) {
+  record(EquationFunction::kTurns, [&] {
+    // The formulas go on reading this state: its references are put back.
+    State<Traced>& state = equations->state;
+    const auto references = state.turns;
+    equations->formulas.track_turns(&state);
+    // Without the flags of dropped rows, which no step changes.
+    return std::vector<VectorX<Traced>>{
+        vector(std::exchange(state.turns, references)).head(system_.layout().drop_slot)};
+  });
+  // Those of the forest's pairs stay, and are no results.
+  std::vector<ValueTask::Output>& outputs = at(EquationFunction::kTurns).outputs;
+  outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
+                               [this](const ValueTask::Output& output) {
+                                 const Recording::Node& node = recording_->node(output.node);
+                                 return node.operation == Operation::kLeaf && node.a == kTurns;
+                               }),
+                outputs.end());
 }
 
 void EquationVariant::record_switches(const Traced& g) {

@@ -155,6 +155,7 @@ class EquationVariant {
   template <class Compute>
   void record(EquationFunction function, const Compute& compute);
   /// Records the differences of which the switches are the signs, and the expressions.
+  void record_turns(EquationRecorder* equations);
   void record_switches(const Traced& g);
   /// Gives the decisions `first` to `last` - 1 of Recording::decisions() to a function if they vary
   /// with the state, else to design_guards_.

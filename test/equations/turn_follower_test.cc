@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "assembly/assembly.h"
 #include "assembly/make_system.h"
@@ -53,6 +54,20 @@ class FollowedRotor {
   std::unique_ptr<Equations<double>> equations;
   int slot = -1;
 };
+
+// A motion that is given keeps the positions of its drives there.
+TEST(TurnFollower, ReferencesOfTheForestStay) {
+  const FollowedRotor rotor(CoordinatesKind::kJoint);
+  ASSERT_GT(rotor.system->layout().drop_slot, 1) << "the tree's joint and the loop";
+  State<double> state = rotor.at(0.3);
+  std::iota(state.turns.begin(), state.turns.end(), 100.0);
+  const std::vector<double> before(state.turns.begin(), state.turns.end());
+  rotor.equations->track_turns(&state);
+  const auto own = static_cast<std::size_t>(rotor.slot);
+  EXPECT_NE(state.turns[own], before[own]);
+  state.turns[own] = before[own];
+  EXPECT_EQ(std::vector<double>(state.turns.begin(), state.turns.end()), before);
+}
 
 TEST(TurnFollower, CountsAnyNumberOfTurnsInJointCoordinates) {
   const FollowedRotor rotor(CoordinatesKind::kJoint);

@@ -108,7 +108,7 @@ TEST(MessageFields, ARowIsSentOrIsNamedHere) {
   EXPECT_EQ(of<m::SearchResult>().with<StartResult>().not_sent, (Set{"status"}));  // code
   EXPECT_EQ(of<m::Optimum>().with<Optimum>().not_sent, Set());
   EXPECT_EQ(of<m::OutputFit>().with<OutputFit>().with<Whiteness>().not_sent,
-            (Set{"explained", "lags", "ljung_box", "probability"}));  // whiteness
+            (Set{"counted", "explained", "lags", "ljung_box", "probability"}));  // share, whiteness
   EXPECT_EQ(of<m::OptimizeResult>().with<SearchCost>().with<Statistics>().not_sent,
             (Set{"explicit_steps"}));
   EXPECT_EQ(of<m::EvaluateResponse>().with<Statistics>().not_sent, (Set{"explicit_steps"}));

@@ -51,7 +51,7 @@ TEST_P(FeatureJob, TheBagHoldsBothRunsWithTheSignalsOfTheStudy) {
       load_problem(read_source(base + ".urdf"), {}, read_source(base + ".yaml"));
   const std::atomic<bool> cancel{false};
   const auto result =
-      run_optimization(problem, "", {}, {folder.path().string(), 20.0}, {}, cancel).result;
+      run_optimization(problem, "", {}, {folder.path().string(), 200.0}, {}, cancel).result;
   ASSERT_FALSE(result.bag.empty()) << result.message;
   EXPECT_LT(result.objective, result.initial_objective);
   const rosbag::Bag bag(result.bag);
