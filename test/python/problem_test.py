@@ -144,8 +144,10 @@ class Linearizations(unittest.TestCase):
         model = problem.linearize()
         self.assertGreater(model.period, 0.0)
         self.assertLess(np.abs(np.linalg.eigvals(model.A)).max(), 1.0)
+        frequencies, response = model.response("velocity_loop")  # it samples twice in the period
+        self.assertEqual(response.shape, frequencies.shape)
         with self.assertRaises(KeyError):
-            model.response("velocity_loop")
+            model.response("axis")
         for wrong in ({"friction": "some"}, {"at": -1.0}, {"at": 1e9}, {"signals": ["axis/poise"]}):
             with self.assertRaises(codesign.InputError):
                 problem.linearize(**wrong)
