@@ -144,7 +144,7 @@ class Linearizations(unittest.TestCase):
         model = problem.linearize()
         self.assertGreater(model.period, 0.0)
         self.assertLess(np.abs(np.linalg.eigvals(model.A)).max(), 1.0)
-        frequencies, response = model.response("velocity_loop")  # it samples twice in the period
+        frequencies, response = model.response("velocity_loop")  # it samples four times in the period
         self.assertEqual(response.shape, frequencies.shape)
         with self.assertRaises(KeyError):
             model.response("axis")
