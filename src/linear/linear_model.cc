@@ -91,7 +91,8 @@ class ModelWriter {
       : case_(of),
         study_(with_inputs(bare_study(of), of.parameters, state.t, of.at_rest)),
         controllers_(of.system->study().controllers.size()),
-        system_(counted_robot(of, study_, state), study_.study, of.system->sharing()),
+        counted_(counted_robot(of, study_, state)),
+        system_(counted_.robot, study_.study, of.system->sharing()),
         motion_(system_, study_),
         pattern_(sample_pattern(study_.study)) {}
 
@@ -136,14 +137,21 @@ class ModelWriter {
     const LinearFriction friction =
         case_.at_rest ? case_.question.friction : LinearFriction::kRegularised;
     (friction == LinearFriction::kOff ? out : in)
-        .emplace_back(friction == LinearFriction::kGivenSpeed ? "friction at the given speed"
-                                                              : "friction");
+        .push_back(friction == LinearFriction::kGivenSpeed ? friction_at_speeds() : "friction");
     if (is_rounded) out.emplace_back("quantization");
     for (const ControllerDescription& controller : study_of_case().controllers)
       if (const int order = pade_order(controller); order > 0)
         in.push_back("the delay of " + controller.name + " by Pade's order " +
                      std::to_string(order));
     return listed(in) + " counted" + (out.empty() ? "" : ", " + listed(out) + " not");
+  }
+
+  std::string friction_at_speeds() const {
+    if (counted_.at_rest.empty()) return "friction at the given speed";
+    if (!counted_.has_sliding) return "friction as at rest";
+    std::string names;
+    for (const std::string& name : counted_.at_rest) names += (names.empty() ? "" : ", ") + name;
+    return "friction at the given speed (as at rest: " + names + ")";
   }
 
   /// The rates of the joints per rate of y.
@@ -231,6 +239,7 @@ class ModelWriter {
   const LinearCase& case_;
   const LinearStudy study_;
   const std::size_t controllers_;  ///< of the study, before those that are disturbances
+  const CountedRobot counted_;
   const CompiledSystem system_;
   LinearMotion motion_;
   const SamplePattern pattern_;

@@ -162,12 +162,16 @@ RobotDescription without_friction(RobotDescription robot) {
     if (joint.friction) remove_coefficients(&*joint.friction);
     joint.dry_friction = Quantity(0.0);
     if (!joint.actuator || !joint.actuator->gear) continue;
-    GearDescription& gear = *joint.actuator->gear;
-    gear.efficiency.reset();
-    gear.backdrive_efficiency.reset();
-    gear.coulomb = Quantity(0.0);
+    remove_losses(&*joint.actuator->gear);
   }
   return robot;
+}
+
+void remove_losses(GearDescription* gear) {
+  gear->efficiency.reset();
+  gear->backdrive_efficiency.reset();
+  gear->coulomb = Quantity(0.0);
+  gear->slip.model = FrictionModel::kBrownMcPhee;
 }
 
 }  // namespace codesign

@@ -50,4 +50,8 @@ LinearStudy with_inputs(Study study, const std::vector<double>& parameters, doub
 /// to a torque are zero, damping and viscous friction stay.
 RobotDescription without_friction(RobotDescription robot);
 
+/// Takes the losses of a gear away, but viscous ones, and with them the states of bristles, whose
+/// poles would be zero.
+void remove_losses(GearDescription* gear);
+
 }  // namespace codesign

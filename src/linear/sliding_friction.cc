@@ -12,6 +12,7 @@
 #include "math/arrays.h"
 #include "math/dense.h"
 #include "math/differences.h"
+#include "mechanism/motor_sides.h"
 #include "mechanism_codesign/error.h"
 
 namespace codesign {
@@ -24,6 +25,17 @@ int joint_of(const System& system, const JointLoad& load) {
   return system.topology().pairs[to_index(load.pair)].chain[to_index(load.element)].joint;
 }
 
+/// Whether a coordinate has losses of a gear, but viscous ones.
+bool has_gear_loss(const System& system, const JointLoad& load) {
+  if (!load.find<GearLoss>()) return false;
+  const JointDescription& joint = system.robot().joints[to_index(joint_of(system, load))];
+  return load.has_gear_torque || !joint.actuator->gear->coulomb.is_zero();
+}
+
+bool has_friction(const System& system, const JointLoad& load) {
+  return load.find<BearingFriction>() || load.find<DryFriction>() || has_gear_loss(system, load);
+}
+
 /// The friction of one coordinate that slides for long, with the forces of a state at rest.
 class SteadyFriction {
  public:
@@ -34,9 +46,11 @@ class SteadyFriction {
       torque_ = gear_torque(formulas->view(), load, 0.0);
   }
 
-  /// Whether there is any, and all of it has a steady value.
+  /// Whether all of it has a steady value, and one coordinate. The annotated friction of a cylinder
+  /// acts along its turn and its slide, and the damping of a joint along one coordinate.
   bool exists() const {
-    if (!load_.find<BearingFriction>() && !load_.find<DryFriction>() && !load_.find<GearLoss>())
+    const StateView<double>& view = formulas_->view();
+    if (load_.find<BearingFriction>() && view.constants(load_.pair).coordinates.size() > 1)
       return false;
     for (const bool of_gear : {false, true})
       if (const BristleContact* bristle = bristle_of(of_gear); bristle && !bristle->model->steady)
@@ -83,7 +97,12 @@ class SteadyFriction {
   double torque_ = 0.0;
 };
 
-/// The velocities of a posture in which the joints move as the study starts them.
+double rate_of(const CoordinateIndex& at, const Formulas<double>& formulas) {
+  return formulas.view().coordinate(at.pair, at.element, CoordinateDetail::kRate).rate;
+}
+
+/// The velocities of a posture in which the joints move as the study starts them, and motors with
+/// their joints.
 VectorX<double> start_velocities(const LinearCase& of, LinearMotion* motion) {
   const CompiledSystem& system = motion->system();
   const Study& study = of.system->whole_study();
@@ -96,21 +115,23 @@ VectorX<double> start_velocities(const LinearCase& of, LinearMotion* motion) {
           given.push_back(
               {{static_cast<int>(p), static_cast<int>(e)}, initial.velocity->at(of.parameters)});
   const Eigen::MatrixXd& Q = motion->coordinates().Q;
-  Eigen::MatrixXd rows(to_signed(given.size()), Q.cols());
-  Eigen::VectorXd speeds(rows.rows());
+  const std::vector<ElasticGear>& gears = system.elastic_gears();
+  const Eigen::Index of_joints = to_signed(given.size());
+  Eigen::MatrixXd rows(of_joints + to_signed(gears.size()), Q.cols());
+  Eigen::VectorXd speeds = Eigen::VectorXd::Zero(rows.rows());
   State<double> moving = motion->state();
   Formulas<double>& formulas = motion->equations().formulas();
   for (Eigen::Index k = 0; k < Q.cols(); ++k) {
     moving.v = Q.col(k);
     formulas.load(moving);
-    for (Eigen::Index row = 0; row < rows.rows(); ++row)
-      rows(row, k) = formulas
-                         .coordinate(given[to_index(row)].first.pair,
-                                     given[to_index(row)].first.element, CoordinateDetail::kRate)
-                         .rate;
+    for (Eigen::Index row = 0; row < of_joints; ++row)
+      rows(row, k) = rate_of(given[to_index(row)].first, formulas);
+    for (std::size_t gear = 0; gear < gears.size(); ++gear)
+      rows(of_joints + to_signed(gear), k) =
+          rate_of(gears[gear].motor, formulas) - rate_of(gears[gear].joint, formulas);
   }
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) speeds[row] = given[to_index(row)].second;
-  if (speeds.size() == 0 || speeds.isZero(0.0))
+  for (Eigen::Index row = 0; row < of_joints; ++row) speeds[row] = given[to_index(row)].second;
+  if (speeds.isZero(0.0))
     throw InputError({{study.file, 1},
                       "initial_state",
                       "friction at a given speed is asked for, and no joint starts with one",
@@ -119,25 +140,60 @@ VectorX<double> start_velocities(const LinearCase& of, LinearMotion* motion) {
   return product(Q, least_norm(rows).solve(speeds)).col(0);
 }
 
-/// Takes the friction of a joint away and gives it damping instead.
-void replace_friction(double slope, const std::vector<double>& parameters,
-                      JointDescription* joint) {
-  joint->friction.reset();
-  joint->dry_friction = Quantity(0.0);
-  joint->damping = Quantity(joint->damping.at(parameters) + slope);
-  if (!joint->actuator || !joint->actuator->gear) return;
+/// Takes the losses of a gear away and gives its motor viscous friction instead.
+/// @param slope at the joint's side. @param joint that has the actuator.
+void replace_losses(double slope, const std::vector<double>& parameters, JointDescription* joint) {
   GearDescription& gear = *joint->actuator->gear;
-  gear.efficiency.reset();
-  gear.backdrive_efficiency.reset();
-  gear.coulomb = Quantity(0.0);
+  const double n = joint->actuator->gear_ratio.at(parameters);
+  remove_losses(&gear);
+  if (slope != 0.0) gear.viscous = Quantity(gear.viscous.at(parameters) + slope / (n * n));
 }
 
-RobotDescription with_slopes(const LinearCase& of, const LinearStudy& study,
-                             const State<double>& rest) {
+/// Takes the friction along a coordinate away and gives its joint damping instead; a motor that
+/// moves apart is made of the actuator of its joint.
+void replace_friction(const System& system, const JointLoad& load, double slope,
+                      const std::vector<double>& parameters, RobotDescription* robot) {
+  const int index = joint_of(system, load);
+  for (JointDescription& owner : robot->joints)
+    if (owner.motor == index) return replace_losses(slope, parameters, &owner);
+  JointDescription& joint = robot->joints[to_index(index)];
+  if (load.find<BearingFriction>()) joint.friction.reset();
+  if (load.find<DryFriction>()) joint.dry_friction = Quantity(0.0);
+  if (load.find<GearLoss>()) replace_losses(0.0, parameters, &joint);
+  joint.damping = Quantity(joint.damping.at(parameters) + slope);
+}
+
+void add_name(const std::string& name, std::vector<std::string>* names) {
+  if (std::find(names->begin(), names->end(), name) == names->end()) names->push_back(name);
+}
+
+/// Adds the joints whose friction acts along a coordinate.
+void add_names(const System& system, const JointLoad& load, std::vector<std::string>* names) {
+  const RobotDescription& robot = system.robot();
+  const auto add = [&](int joint) {
+    add_name(joint_of_motor(robot, robot.joints[to_index(joint)].name), names);
+  };
+  if (load.find<BearingFriction>())
+    add(system.topology().pairs[to_index(load.pair)].friction_joint);
+  if (load.find<DryFriction>() || has_gear_loss(system, load)) add(joint_of(system, load));
+}
+
+/// Adds the joints and contacts that slip in several directions.
+void add_contacts(const System& system, std::vector<std::string>* names) {
+  const RobotDescription& robot = system.robot();
+  for (const int pair : system.contacts())
+    add_name(robot.joints[to_index(system.topology().pairs[to_index(pair)].friction_joint)].name,
+             names);
+  for (const ContactDescription& contact : robot.contacts)
+    if (contact.friction) add_name(contact.name, names);
+}
+
+CountedRobot with_slopes(const LinearCase& of, const LinearStudy& study,
+                         const State<double>& rest) {
   const CompiledSystem system(of.system->robot(), study.study, of.system->sharing());
   LinearMotion motion(system, study);
-  RobotDescription robot = of.system->robot();
-  if (!motion.linearize_at_rest(rest, of.integrals).ok()) return robot;
+  CountedRobot counted{of.system->robot()};
+  if (!motion.linearize_at_rest(rest, of.integrals).ok()) return counted;
   const VectorX<double> v = start_velocities(of, &motion);
   State<double> moving = motion.state();
   moving.v = v;
@@ -145,29 +201,35 @@ RobotDescription with_slopes(const LinearCase& of, const LinearStudy& study,
   std::vector<double> rates;
   formulas.load(moving);
   for (const JointLoad& load : system.loads())
-    rates.push_back(formulas.coordinate(load.pair, load.element, CoordinateDetail::kRate).rate);
+    rates.push_back(rate_of({load.pair, load.element}, formulas));
   double fastest = 0.0;
   for (const double rate : rates) fastest = std::max(fastest, std::abs(rate));
   for (std::size_t k = 0; k < rates.size(); ++k) {
     const JointLoad& load = system.loads()[k];
+    if (!has_friction(system, load)) continue;
     formulas.load(motion.state());
     SteadyFriction friction(motion.state(), load, &formulas);
-    if (!friction.exists() || std::abs(rates[k]) <= kUnmoved * fastest) continue;
+    if (!friction.exists() || std::abs(rates[k]) <= kUnmoved * fastest) {
+      add_names(system, load, &counted.at_rest);
+      continue;
+    }
+    counted.has_sliding = true;
     const double slope = ridders_derivative([&](double rate) { return friction.at(rate); },
                                             rates[k], kFirstStep * std::abs(rates[k]))
                              .value;
-    replace_friction(slope, study.parameters, &robot.joints[to_index(joint_of(system, load))]);
+    replace_friction(system, load, slope, study.parameters, &counted.robot);
   }
-  return robot;
+  add_contacts(system, &counted.at_rest);
+  return counted;
 }
 
 }  // namespace
 
-RobotDescription counted_robot(const LinearCase& of, const LinearStudy& study,
-                               const State<double>& rest) {
+CountedRobot counted_robot(const LinearCase& of, const LinearStudy& study,
+                           const State<double>& rest) {
   if (!of.at_rest || of.question.friction == LinearFriction::kRegularised)
-    return of.system->robot();
-  if (of.question.friction == LinearFriction::kOff) return without_friction(of.system->robot());
+    return {of.system->robot()};
+  if (of.question.friction == LinearFriction::kOff) return {without_friction(of.system->robot())};
   return with_slopes(of, study, rest);
 }
 
