@@ -190,6 +190,7 @@ GivenStart::GivenStart(const System& system, TreeLayout* layout) {
     const int joint = tree_joint(system.robot(), initial);
     if (joint < 0) continue;
     const int c = tree.offset[to_index(joint)];
+    if (initial.guess) position[to_index(c)] = false;  // of a joint that plays
     mark(&position, c, 1, initial.position.has_value());
     mark(&guess, c, 1, initial.guess.has_value());
     mark(&velocity, c, 1, initial.velocity.has_value());

@@ -207,7 +207,7 @@ struct JointDescription {
   /// together
   int motor = -1;
   bool is_motor = false;  ///< it is such a joint
-  /// it lets another joint play, with_clearance(): zero at the start unless the study says
+  /// it lets another joint play, read_clearances(): zero at the start unless the study says
   /// otherwise
   bool is_play = false;
   SourceLocation where;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -82,7 +83,8 @@ std::vector<NearLinks> find_near_links(const Problem& problem,
     for (std::size_t link = 0; link < robot.links.size(); ++link)
       if (robot.links[link].name == links[k]) body[k] = system.topology().link_body[link];
   }
-  std::set<Bodies> told = connected_bodies(system);
+  const std::set<Bodies> connected = connected_bodies(system);
+  std::map<Bodies, std::size_t> told;  // where in `near`
   std::vector<NearLinks> near;
   for (std::size_t a = 0; a < links.size(); ++a)
     for (std::size_t b = a + 1; b < links.size(); ++b) {
@@ -93,8 +95,13 @@ std::vector<NearLinks> find_near_links(const Problem& problem,
         for (const SolidBox& of_b : boxes[b])
           distance = std::min(distance, box_distance(of_a, of_b));
       if (distance > kNear * std::min(size_of(boxes[a]), size_of(boxes[b]))) continue;
-      if (told.insert(ordered(body[a], body[b])).second)
+      const Bodies bodies = ordered(body[a], body[b]);
+      if (connected.count(bodies) != 0) continue;
+      const auto [at, is_first] = told.insert({bodies, near.size()});
+      if (is_first)
         near.push_back({links[a], links[b], distance});
+      else if (distance < near[at->second].distance)
+        near[at->second] = {links[a], links[b], distance};
     }
   return near;
 }

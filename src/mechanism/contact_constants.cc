@@ -76,6 +76,11 @@ T hertz_stiffness(const ContactDescription& contact, const ContactConstants<T>& 
   return 4.0 / (3.0 * compliance * sqrt(curvature));
 }
 
+/// Whether it is that of the collars of a joint with clearance.
+bool is_axial(const ContactDescription& contact) {
+  return contact.surface.shape == ShapeKind::kSlot && !contact.surface.axes->across;
+}
+
 }  // namespace
 
 template <class T>
@@ -118,8 +123,9 @@ CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 
 std::string contact_fault(const ContactDescription& contact, const ContactConstants<double>& c) {
   const std::string of = " of contact '" + contact.name + "' is ";
-  if (!(c.surface.clearance >= 0.0))
-    return "clearance" + of + to_decimal(c.surface.clearance) + " (allowed: >= 0)";
+  if (!contact.clearance.empty() && !(c.surface.clearance > 0.0))
+    return std::string(is_axial(contact) ? "axial" : "radial") + " of " + contact.clearance +
+           " is " + to_decimal(c.surface.clearance) + " (allowed: > 0)";
   const auto side_fault = [&](const ContactEnd& end, const ShapeNumbers<double>& n) -> std::string {
     if (end.shape->has_radius && !(n.radius > 0.0)) return "radius" + of + to_decimal(n.radius);
     if (end.shape->has_length && !(n.length > 0.0)) return "length" + of + to_decimal(n.length);

@@ -44,6 +44,7 @@ Coupling mimic_coupling(const RobotDescription& robot, const Topology& topology,
 }
 
 /// The joints that are not fixed between a link and one of its ancestors, starting at the link.
+/// Those that let another one play are no part of a coupling, whose row would hold them.
 std::vector<int> moving_joints(const RobotDescription& robot, const Topology& topology, int link,
                                int ancestor, const Coupling& coupling) {
   std::vector<int> joints;
@@ -51,7 +52,7 @@ std::vector<int> moving_joints(const RobotDescription& robot, const Topology& to
     const int k = topology.link_parent_joint[to_index(at)];
     const JointDescription& joint = robot.joints[to_index(k)];
     at = joint.parent;
-    if (joint.is_fixed()) continue;
+    if (joint.is_fixed() || joint.is_play) continue;
     if (!joint.has_one_coordinate())
       throw InputError({coupling.where, coupling.element(),
                         "a joint between the coupled links has more than one coordinate",

@@ -107,6 +107,7 @@ bool needs_coordinate(const RobotDescription& robot, const Topology& topology, i
     return true;
   for (const JointDescription& other : robot.joints)
     if (other.mimic && other.mimic->joint == joint.name) return true;
+  if (joint.is_play) return false;
   for (const CouplingDescription& coupling : robot.couplings) {
     const std::vector<int> coupled =
         joints_between(robot, topology.link_parent_joint, coupling.predecessor, coupling.successor);

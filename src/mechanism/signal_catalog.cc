@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "description/clearance.h"
 #include "description/link_elements.h"
 #include "mechanism/signal_axes.h"
 #include "mechanism/topology.h"
@@ -26,6 +27,7 @@ struct Offer {
   Names quaternions;    ///< of a link
   Names ambiguous;      ///< quantities that both the mechanism and a joint named `mechanism` have
   bool welded = false;  ///< a fixed joint of the tree
+  std::string contact;  ///< of a joint with clearance, or one that lets it play: what carries it
 };
 
 constexpr const char* kMechanism = "mechanism";
@@ -54,6 +56,10 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
     add_quantities(
         SignalOwner::kJoint, [&](const SignalFacts& facts) { return facts.is_of(joint); }, &offer);
     offer.welded = !is_movable(joint);
+    if (has_clearance(robot, joint))
+      offer.contact = name + "_clearance";
+    else if (joint.is_play)
+      offer.contact = name.substr(0, name.rfind('_')) + "_clearance";
   }
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;
@@ -134,6 +140,10 @@ void check_term(const SignalTerm& term, const Offer& offer, const SourceLocation
          spelling(term),
          "a movable joint; or a floating joint and a <loop type=\"fixed\"> in place of the fixed "
          "joint"});
+  if (!offer.contact.empty() && is_reaction(term))
+    throw InputError({where, element,
+                      "a joint with clearance is carried by its contact, not by a reaction",
+                      spelling(term), offer.contact + "/normal_force"});
   if (as_scalar && term.component.empty()) return;
   if (as_vector && good_component) return;
   const std::string allowed = list_names(spelled(term.object, offer));

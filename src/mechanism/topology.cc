@@ -141,7 +141,7 @@ class TopologyBuilder {
     for (const CouplingDescription& coupling : robot_.couplings)
       for (int joint : joints_between(robot_, topology_.link_parent_joint, coupling.predecessor,
                                       coupling.successor))
-        in_coupling_[index(joint)] = true;
+        if (!robot_.joints[index(joint)].is_play) in_coupling_[index(joint)] = true;
   }
 
   // A massless group between two joints is folded. Any other massless group, with three joints or

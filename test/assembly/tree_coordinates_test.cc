@@ -96,5 +96,25 @@ TEST(TreeCoordinates, HingesOfABallCountAndMasslessEndsStay) {
   EXPECT_NEAR(found.rate[0], 1.0, 1e-13);
 }
 
+TEST(TreeCoordinates, AGuessOfAJointThatPlaysIsNoPosition) {
+  const std::string arm =
+      robot_text(kGround + link_with("arm") +
+                 joint_with("pin", "continuous", "ground", "arm",
+                            "<axis xyz='0 1 0'/><codesign:clearance radial='1e-3' radius='0.01' "
+                            "stiffness='1e6'/>"))
+          .text;
+  Compiled c(arm, let_go("{pin_x: {guess: 1.0e-4}, pin_y: {velocity: 0.1}}", "pin/position"));
+  TreeLayout tree(c.system.robot());
+  const GivenStart given(c.system, &tree);
+  const auto at = [&](const char* name) {
+    return static_cast<std::size_t>(
+        tree.offset[static_cast<std::size_t>(joint_named(c.system.robot(), name))]);
+  };
+  EXPECT_FALSE(given.position[at("pin_x")]);
+  EXPECT_TRUE(given.guess[at("pin_x")]);
+  EXPECT_TRUE(given.position[at("pin_y")]) << "zero unless the study says otherwise";
+  EXPECT_FALSE(given.position[at("pin")]);
+}
+
 }  // namespace
 }  // namespace codesign

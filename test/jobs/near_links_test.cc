@@ -70,5 +70,20 @@ TEST(NearLinks, AreThoseThatNothingConnects) {
       << "a joint connects them";
 }
 
+TEST(NearLinks, OfTwoBodiesTheNearestPairIsTold) {
+  const auto plate = [](const std::string& name, const std::string& on, const std::string& z) {
+    return "<link name='" + name +
+           "'><collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision></link><joint "
+           "name='weld_" +
+           name + "' type='fixed'><parent link='" + on + "'/><child link='" + name +
+           "'/><origin xyz='0 0 " + z + "'/></joint>";
+  };
+  const std::vector<NearLinks> near =
+      near_links(link("a", "0") + link("b", "0.109") + plate("c", "b", "-0.007"));
+  ASSERT_EQ(near.size(), 1U);
+  EXPECT_EQ(near[0].first + near[0].second, "ac");
+  EXPECT_NEAR(near[0].distance, 0.002, 1e-15);
+}
+
 }  // namespace
 }  // namespace codesign

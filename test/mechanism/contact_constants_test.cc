@@ -8,6 +8,7 @@
 #include "integration/playing.h"
 #include "integration/touching.h"
 #include "mechanism/constants.h"
+#include "reading/urdf/urdf_fixture.h"
 
 namespace codesign {
 namespace {
@@ -87,6 +88,28 @@ TEST(ContactConstants, DesignsThatAreImpossibleHaveASentence) {
   EXPECT_EQ(Evaluated(contact, {0.05, -1.0, 0.05}).fault(), "dissipation of contact 'touch' is -1");
   EXPECT_NE(Evaluated(contact, {0.05, 0.3, -0.1}).fault().find("friction coefficients of contact"),
             std::string::npos);
+}
+
+TEST(ContactConstants, AClearanceOfZeroNamesTheAttributeOfTheJoint) {
+  const auto fault = [](const std::string& radial, const std::string& axial) {
+    const std::string play = "<codesign:clearance radial='1e-4' codesign:radial='" + radial +
+                             "' axial='1e-4' codesign:axial='" + axial +
+                             "' radius='0.01' stiffness='1e8'/>";
+    const RobotDescription robot = read_urdf(robot_text(
+        std::string("<codesign:parameter name='c' value='1e-4'/>") + kGround + link_with("arm") +
+        joint_with("pin", "continuous", "ground", "arm", "<axis xyz='0 1 0'/>" + play)));
+    const Topology topology = derive_topology(robot);
+    std::vector<double> parameters = default_values(robot);
+    EXPECT_EQ(
+        find_impossible(robot, topology, evaluate_constants<double>(robot, topology, parameters)),
+        "");
+    parameters.back() = 0.0;
+    return find_impossible(robot, topology,
+                           evaluate_constants<double>(robot, topology, parameters));
+  };
+  const std::string of = " of <joint name=\"pin\"> <codesign:clearance> is 0 (allowed: > 0)";
+  EXPECT_EQ(fault("${c}", "1e-4"), "radial" + of);
+  EXPECT_EQ(fault("1e-4", "${c}"), "axial" + of);
 }
 
 }  // namespace

@@ -209,6 +209,23 @@ TEST(DrivenTree, ALoopBelowTheJointDoesNotMatter) {
   EXPECT_NE(trees.fault("wrist", false), "");
 }
 
+TEST(Coupling, TheJointsThatLetAnotherOnePlayAreNoPartOfIt) {
+  const std::string play =
+      "<codesign:clearance radial=\"1e-4\" radius=\"0.01\" stiffness=\"1e8\"/>";
+  for (const char* successor : {"rotor", "lower"}) {
+    const bool is_below = std::string(successor) == "rotor";
+    const RobotDescription robot =
+        read_urdf(robot_text(coupled_arm(coupling(is_below ? "lower" : "rotor", successor), play)));
+    const Topology topology = derive_topology(robot);
+    ASSERT_EQ(topology.couplings.size(), 1U);
+    std::vector<std::string> joints;
+    for (const CouplingTerm& term : topology.couplings[0].terms)
+      joints.push_back(robot.joints[static_cast<std::size_t>(term.joint)].name);
+    EXPECT_EQ(joints, is_below ? (std::vector<std::string>{"motor", "elbow", "shoulder"})
+                               : (std::vector<std::string>{"elbow", "shoulder", "motor"}));
+  }
+}
+
 }  // namespace
 
 }  // namespace codesign

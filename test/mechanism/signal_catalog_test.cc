@@ -181,5 +181,25 @@ TEST(SignalCatalog, DefaultsCoverJointsFrictionAndControllers) {
   for (const std::string& signal : expected) check(signal);
 }
 
+TEST(SignalCatalog, AJointWithClearanceHasTheForceOfItsContact) {
+  RobotDescription robot = catalog_robot();
+  robot.links[1].name = robot.joints[0].name = "slide_x";
+  robot.joints[0].is_play = true;
+  const auto fault = [&robot](const std::string& text) {
+    try {
+      check_signal(parse_signal(text, {"s.yaml", 2}, "here"), robot, controllers(), "here");
+    } catch (const InputError& error) {
+      EXPECT_NE(error.fault().message.find("carried by its contact"), std::string::npos) << text;
+      return error.fault().allowed;
+    }
+    return std::string();
+  };
+  for (const char* joint : {"slide", "slide_x"})
+    for (const char* quantity : {"/reaction_force/x", "/reaction_torque/z"})
+      EXPECT_EQ(fault(std::string(joint) + quantity), "slide_clearance/normal_force");
+  EXPECT_EQ(fault("slide/position"), "");
+  EXPECT_EQ(fault("plane/reaction_force/x"), "") << "of the next joint";
+}
+
 }  // namespace
 }  // namespace codesign

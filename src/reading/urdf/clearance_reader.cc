@@ -135,10 +135,22 @@ class ClearanceReader {
     return axis_at(joint.axis, std::vector<double>());
   }
 
+  /// The names that the clearance gives are no one else's.
+  void require_free(const std::string& name) const {
+    const auto has = [&name](const auto& elements) {
+      return std::any_of(elements.begin(), elements.end(),
+                         [&name](const auto& element) { return element.name == name; });
+    };
+    if (has(robot_.links) || has(robot_.joints) || has(robot_.contacts))
+      element_.fail("the clearance adds elements of a name that is taken", name,
+                    "another name of that link, joint or contact, or of this joint");
+  }
+
   ContactDescription contact_of(const JointDescription& joint, const char* suffix,
                                 const Quantity& clearance) const {
     ContactDescription contact;
     contact.name = joint.name + suffix;
+    require_free(contact.name);
     contact.where = element_.where();
     contact.clearance = element_.label();
     contact.surface.link = joint.parent;
@@ -159,6 +171,7 @@ class ClearanceReader {
   /// A link without mass. Below a joint of the tree it is folded away; below a loop it stays, so
   /// that the start closes the loop as without clearance.
   int add_link(const std::string& name, bool stays) {
+    require_free(name);
     LinkDescription link;
     link.name = name;
     link.where = element_.where();
@@ -205,6 +218,17 @@ class ClearanceReader {
   ShapeAxes axes_;
 };
 
+/// Reads what stands beside radial="0", so that its errors show, and adds nothing.
+void discard(const XmlElement& element, const ReadContext& context, RobotDescription robot,
+             JointDescription joint) {
+  const auto* const first = element.node()->FirstAttribute();
+  if (first->Next() == nullptr) return;
+  joint.friction.reset();
+  joint.actuator.reset();
+  for (Quantity& part : joint.axis) part = part.nominal();
+  ClearanceReader(element, context, &robot).read(0.0, &joint);
+}
+
 }  // namespace
 
 void read_clearances(const XmlElement& robot, const ReadContext& context,
@@ -221,7 +245,10 @@ void read_clearances(const XmlElement& robot, const ReadContext& context,
         element->fail("a joint of this type has no clearance", of.find("type").value_or(""),
                       "revolute, continuous and prismatic joints and loops, loops of type "
                       "codesign:spherical; else a <codesign:contact>");
-      if (radial.is_zero()) continue;
+      if (radial.is_zero()) {
+        discard(*element, context, *description, joint);
+        continue;
+      }
       if (radial.nominal() == 0.0)
         element->fail_at("radial", "a clearance that depends on a parameter is zero",
                          "> 0; or the plain number 0, the joint without clearance");

@@ -63,6 +63,17 @@ constexpr const char* kMessage =
     "contact keys of other tools have no effect here, where links touch only by "
     "<codesign:contact>";
 
+/// Whether a number of another tool can be the attribute's.
+bool fits(const std::string& attribute, double number) {
+  if (attribute == "restitution") return number > 0.0 && number <= 1.0;
+  return attribute == "stiffness" ? number > 0.0 : number >= 0.0;
+}
+
+/// What MuJoCo's constraints other than contacts have solref and solimp for.
+bool is_no_contact(const std::string& tag) {
+  return tag == "plugin" || tag == "sensor" || tag == "equality" || tag == "tendon";
+}
+
 template <std::size_t N>
 const ContactKey* find_key(const ContactKey (&keys)[N], const std::string& name) {
   for (const ContactKey& key : keys)
@@ -80,7 +91,7 @@ class KeyFinder {
       if (const ContactKey* const key = find_key(kElements, child.tag())) {
         const char* const text = child.node()->GetText();
         take(*key, child.find("value").value_or(text != nullptr ? text : ""));
-      } else if (child.tag() != "plugin" && child.tag() != "sensor") {
+      } else if (!is_no_contact(child.tag())) {
         visit(child);
       }
     }
@@ -90,6 +101,7 @@ class KeyFinder {
   std::string names() const { return list_names({names_.begin(), names_.end()}); }
   std::string of_contact() const { return of_contact_; }
   std::string of_friction() const { return of_friction_; }
+  bool has_stiffness() const { return has_stiffness_; }  ///< a number [N/m]
 
  private:
   void take(const ContactKey& key, const std::string& text) {
@@ -97,18 +109,20 @@ class KeyFinder {
     const std::vector<std::string> words = split_words(text);
     if (key.attribute == nullptr || words.empty()) return;
     const std::string attribute = key.attribute;
+    // Their damping counts per rate, lambda of Hunt and Crossley per force: there is no number.
+    if (attribute == "dissipation") return;
     const bool is_friction = attribute.rfind("mu_", 0) == 0;
     std::string& to = is_friction ? of_friction_ : of_contact_;
     if (to.find(" " + attribute + "=") != std::string::npos) return;
     const auto number = parse_number(words.front());
-    // Their damping counts per rate, lambda of Hunt and Crossley per force: there is no number.
-    const bool is_same = number && attribute != "dissipation" && attribute != "damping";
-    if (attribute != "dissipation" && attribute != "damping")
-      to += " " + attribute + "=\"" + (is_same ? to_decimal(*number) : "...") + "\"";
+    const bool is_same = number && fits(attribute, *number);
+    to += " " + attribute + "=\"" + (is_same ? to_decimal(*number) : "...") + "\"";
+    if (is_same && attribute == "stiffness") has_stiffness_ = true;
   }
 
   std::set<std::string> names_;
   std::string of_contact_, of_friction_;
+  bool has_stiffness_ = false;
 };
 
 std::string suggestion(const std::string& link, const KeyFinder& keys) {
@@ -116,6 +130,7 @@ std::string suggestion(const std::string& link, const KeyFinder& keys) {
   if (contact.find(" stiffness=") == std::string::npos) contact = " stiffness=\"...\"" + contact;
   contact += contact.find(" restitution=") == std::string::npos ? " dissipation=\"...\""
                                                                 : " impact_velocity=\"...\"";
+  if (keys.has_stiffness()) contact += " exponent=\"1\"";  // theirs are N/m
   if (!friction.empty() && friction.find("mu_dynamic") == std::string::npos)
     friction += " mu_dynamic=\"...\"";
   return "<codesign:contact name=\"...\"" + contact +

@@ -33,10 +33,10 @@ struct SolidBox {
 /// The boxes of the solids of each link.
 using LinkBoxes = std::vector<std::vector<SolidBox>>;
 
-/// The boxes around the `<visual>` elements of a URDF whose numbers are at their values, as
-/// write_tuned_urdf() makes it.
-/// @param links names; the result has one entry for each, in their order. A link without visuals
-/// has no boxes, nor has a mesh, whose size is not known. @param tag `visual` or `collision`.
+/// The boxes around the `<visual>` or `<collision>` elements of a URDF whose numbers are at their
+/// values, as write_tuned_urdf() makes it.
+/// @param links names; the result has one entry for each, in their order. A link without solids has
+/// no boxes, nor has a mesh, whose size is not known. @param tag `visual` or `collision`.
 /// @returns entries without boxes if the text cannot be read: this serves pictures and advice only.
 LinkBoxes link_boxes(const std::string& urdf, const std::vector<std::string>& links,
                      const char* tag = "visual");

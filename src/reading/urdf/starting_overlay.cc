@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "description/clearance.h"
 #include "math/arrays.h"
 #include "mechanism/mass_properties.h"
 #include "mechanism/rigid_groups.h"
@@ -94,10 +95,7 @@ class Writer {
   /// Whether it belongs to a clearance: the joint, which has neither rotor nor friction of its own,
   /// or one of those that let it play.
   bool plays(const JointDescription& joint) const {
-    return joint.is_play || std::any_of(robot_.joints.begin(), robot_.joints.end(),
-                                        [&joint](const JointDescription& other) {
-                                          return other.is_play && other.child == joint.parent;
-                                        });
+    return joint.is_play || has_clearance(robot_, joint);
   }
 
   /// The reductions of `<transmission>`, which are read for joints with an actuator.

@@ -165,17 +165,15 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Gives each joint, loop and contact with friction the law. Removes attributes that the law does
-/// not use, since a file with them could not be read. Contacts keep theirs where the law has
-/// states, which they cannot have.
+/// Gives each joint and loop with friction the law. Removes attributes that the law does not use,
+/// since a file with them could not be read. Contacts keep theirs, as in the runs with the law.
 void write_friction_law(XMLElement* parent, const FrictionLaw& law) {
   for (XMLElement* joint = parent->FirstChildElement(); joint != nullptr;
        joint = joint->NextSiblingElement()) {
     const std::string tag = joint->Name();
-    if (tag == "joint" || tag == "loop") write_friction_law(joint, law);
+    if (tag != "joint" && tag != "loop") continue;
     XMLElement* friction = joint->FirstChildElement("codesign:friction");
     if (friction == nullptr) continue;
-    if (law.bristle && (tag == "codesign:contact" || tag == "codesign:clearance")) continue;
     const bool direct = friction->Attribute("coulomb") != nullptr;
     friction->SetAttribute("model", law.name);
     const auto remove = [friction](const char* attribute) {

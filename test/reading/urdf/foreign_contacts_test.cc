@@ -70,5 +70,28 @@ TEST(ForeignContacts, OfALinkThatTouchesSayNothing) {
                   .empty());
 }
 
+TEST(ForeignContacts, ACopiedStiffnessIsOfALinearSpring) {
+  expect_says(arm("<contact><stiffness value='500'/></contact>"),
+              {"stiffness=\"500\" dissipation=\"...\" exponent=\"1\""});
+  expect_says(arm("<contact><drake:point_contact_stiffness value='7'/></contact>"),
+              {"stiffness=\"7\"", "exponent=\"1\""});
+}
+
+TEST(ForeignContacts, NumbersThatNoContactMayHaveAreToBeFilledIn) {
+  const std::string text =
+      arm("<contact><stiffness value='0'/><restitution value='0'/><lateral_friction "
+          "value='-1'/></contact>");
+  expect_says(text, {"stiffness=\"...\" restitution=\"...\"", "mu_static=\"...\""});
+  EXPECT_EQ(found(text).at(0).message.find("exponent"), std::string::npos);
+}
+
+TEST(ForeignContacts, OtherConstraintsOfMuJoCoAreNoContacts) {
+  EXPECT_TRUE(found(arm("") +
+                    "<mujoco><equality><weld solref='0.01 1' solimp='1 1 1'/></equality><tendon>"
+                    "<fixed solimp='1 1 1'/></tendon><default><equality solref='0.1 1'/></default>"
+                    "</mujoco>")
+                  .empty());
+}
+
 }  // namespace
 }  // namespace codesign

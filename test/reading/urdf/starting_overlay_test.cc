@@ -175,5 +175,17 @@ TEST(StartingOverlay, OfRobotsAsTheyAreFoundIsRead) {
   for (const std::filesystem::path& file : found_robots()) expect_it_is_read(file);
 }
 
+TEST(StartingOverlay, AJointBelowOneWithClearanceHasADrive) {
+  const std::string text = starting_overlay(
+      robot_text(kGround + link_with("block") + link_with("arm") +
+                 joint_with("slide", "prismatic", "ground", "block",
+                            std::string(kVendorJoint) +
+                                "<codesign:clearance radial=\"1e-4\" length=\"0.1\" width=\"0.04\" "
+                                "stiffness=\"1e8\"/>") +
+                 joint_with("hinge", "revolute", "block", "arm", kVendorJoint)));
+  EXPECT_TRUE(has_text(text, "joint name=\"hinge\"")) << text;
+  EXPECT_FALSE(has_text(text, "joint name=\"slide\"")) << text;
+}
+
 }  // namespace
 }  // namespace codesign

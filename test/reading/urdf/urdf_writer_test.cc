@@ -236,5 +236,23 @@ TEST(FilledUrdf, WarningsHaveTheLinesOfTheFiles) {
   EXPECT_NE(filled.text.find("radius"), std::string::npos);
 }
 
+TEST(UrdfWriter, AnotherFrictionLawLeavesContactsAsTheyAre) {
+  const std::string friction =
+      "<codesign:friction model='stribeck' mu_static='0.2' mu_dynamic='0.1'/>";
+  const SourceText urdf = robot_text(
+      kGround + link_with("arm") +
+      joint_with("pin", "continuous", "ground", "arm",
+                 "<axis xyz='0 1 0'/><codesign:clearance radial='1e-4' radius='0.01' "
+                 "stiffness='1e8'>" +
+                     friction + "</codesign:clearance>") +
+      "<codesign:contact name='foot' stiffness='1e6'><predecessor link='ground' shape='plane'/>"
+      "<successor link='arm' shape='sphere' radius='0.1'/>" +
+      friction + "</codesign:contact>");
+  const std::vector<double> parameters(read_urdf(urdf).parameters.size(), 0.3);
+  for (const FrictionModel law :
+       {FrictionModel::kBrownMcPhee, FrictionModel::kGonthier, FrictionModel::kLuGre})
+    EXPECT_EQ(write_tuned_urdf(urdf, {}, parameters, law), write_tuned_urdf(urdf, {}, parameters));
+}
+
 }  // namespace
 }  // namespace codesign
