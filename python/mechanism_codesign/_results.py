@@ -357,7 +357,7 @@ class Regressor:
     names, values: of the p numbers, those of the sensors behind those of the model, shape (p,), in SI units.
     time: of the n rows of all recordings, shape (n,) [s].
     lengths: rows of each recording.
-    computed: efforts at `values`, shape (n, k) [N m or N].
+    computed: efforts at `values`, shape (n, k) [N m or N], with an offset of a sensor only if it is one of the numbers.
     matrix: d effort / d number, shape (n, k, p), in SI units. `regressor[NAME]` is the part of one number, shape (n, k).
     base_names, base_values: of the b combinations of the numbers that the motion determines, the base parameters, shape (b,), in SI units.
     base: their columns of the matrix, shape (n, k, b), in SI units: `base @ base_values` is `matrix @ values`.

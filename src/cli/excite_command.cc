@@ -75,6 +75,21 @@ void print_predictions(const ExcitationResult& result, double level, std::ostrea
   table.print(out);
 }
 
+/// A trajectory that breaks limits may seem better than any that keeps them.
+void print_compared_limits(const ComparedTrajectory& compared, std::ostream& out) {
+  const KeptLimit* broken = compared.broken();
+  if (!broken) {
+    out << "the compared trajectory keeps all limits at its samples\n";
+    return;
+  }
+  const LimitedSignal& limits = broken->limits;
+  const ScannedSignal& reached = broken->reached;
+  const bool is_above = limits.relative(reached.highest) > -limits.relative(reached.lowest);
+  out << "the compared trajectory breaks limits, the worst: " << limits.name << " reaches "
+      << readable(is_above ? reached.highest : reached.lowest) << ", the limit is "
+      << readable(is_above ? limits.upper : limits.lower) << '\n';
+}
+
 /// Expressions that are longer than a line stand in the JSON.
 void print_base(const ExcitationResult& result, std::ostream& out) {
   constexpr std::size_t kLongest = 80;
@@ -106,6 +121,7 @@ void print_condition(const ExcitationResult& result, std::ostream& out) {
   if (result.compared && !result.compared->status.ok())
     out << "the compared trajectory cannot be followed: " << describe(result.compared->status)
         << '\n';
+  if (const ComparedTrajectory* compared = judged(result)) print_compared_limits(*compared, out);
 }
 
 void print_limits(const ExcitationResult& result, std::ostream& out) {
@@ -136,8 +152,9 @@ Problem load_excitable(const Arguments& arguments, const Console& console) {
   return problem;
 }
 
-/// The trajectory of --compare. @throws InputError
-std::optional<JointRecording> read_compared(const Arguments& arguments, const Problem& problem) {
+/// The trajectory of --compare, looked at as recordings are. @throws InputError
+std::optional<JointRecording> read_compared(const Arguments& arguments, const Problem& problem,
+                                            Warnings* warnings) {
   if (arguments.compare.empty()) return std::nullopt;
   RecordingDescription description;
   description.file = arguments.compare;
@@ -147,8 +164,11 @@ std::optional<JointRecording> read_compared(const Arguments& arguments, const Pr
   for (const JointDescription& joint : robot_of(problem).joints)
     if (joint.has_one_coordinate()) joints.push_back(joint.name);
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  return checked_part(read_table_recording(description, arguments.compare, joints), -kInfinite,
-                      kInfinite);
+  JointRecording part =
+      checked_part(read_table_recording(description, arguments.compare, joints, "--compare"),
+                   -kInfinite, kInfinite);
+  check_part(robot_of(problem), &part, warnings);
+  return without_gaps(part, GapRule::kRefuse, warnings).front();
 }
 
 std::string trajectory_text(const TrajectoryPoints& points) {
@@ -193,7 +213,8 @@ int excite(const Arguments& arguments, const Console& console) {
     require_other_files(arguments.output, {kResultFile, kTrajectoryFile, kPlainFile, kBagFile},
                         "--output", problem);
   }
-  const std::optional<JointRecording> compared = read_compared(arguments, problem);
+  Warnings warnings;
+  const std::optional<JointRecording> compared = read_compared(arguments, problem, &warnings);
   LinePace pace;
   const auto observer = [&](const ExcitationTrial& trial) {
     if (pace.admits_now()) print_excitation_trial(trial, progress_of(arguments, console));
@@ -204,7 +225,8 @@ int excite(const Arguments& arguments, const Console& console) {
   const bool is_found = !result.points.joints.empty();
   if (!arguments.json && is_found) print_excitation(problem, result, console.out);
   Json object = excitation_json(problem, result);
-  add_warnings(arguments, problem, {}, &object, console);
+  append(result.warnings, &warnings);
+  add_warnings(arguments, problem, warnings, &object, console);
   if (!result.status.ok()) object["error"] = to_json(result.status);
   std::vector<Failure> failures;
   if (!arguments.output.empty() && is_found)

@@ -9,6 +9,7 @@
 #include "excitation/limit_scan.h"
 #include "excitation/trajectory_basis.h"
 #include "mechanism_codesign/status.h"
+#include "mechanism_codesign/warning.h"
 
 namespace codesign {
 
@@ -44,6 +45,10 @@ struct ComparedTrajectory {
   double condition = 0.0;              ///< as ExcitationResult::condition
   Eigen::VectorXd deviations, halves;  ///< of the numbers
   Eigen::VectorXd base;                ///< deviations of the base parameters
+  std::vector<KeptLimit> limits;       ///< what it reaches at its samples, within its limits or not
+
+  /// The limit that it breaks by most, relative to the range; null: it keeps all.
+  const KeptLimit* broken() const;
 };
 
 /// One search.
@@ -67,7 +72,8 @@ struct ExcitationResult {
   double condition_before = 0.0, condition = 0.0;
   std::vector<PredictedBase> base;  ///< empty if the numbers are the base parameters themselves
   std::optional<ComparedTrajectory> compared;
-  int counted = 0;  ///< number of identified numbers, or sums of them, in the criterion
+  Warnings warnings;  ///< of its samples
+  int counted = 0;    ///< number of identified numbers, or sums of them, in the criterion
   TrajectoryPoints before, points;
   Eigen::VectorXd rest;          ///< positions of the joints at both ends
   Eigen::MatrixXd coefficients;  ///< coefficients of the shapes (45), shapes x joints

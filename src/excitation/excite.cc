@@ -77,7 +77,8 @@ class Excitation {
         scan_(space_, limits_, &motion_),
         probe_(space_, limits_, information_, {}, &motion_) {
     if (compared)
-      given_ = given_motion(*compared, study_of(problem).identification->filter, limits_.joints);
+      given_ = given_motion(*compared, study_of(problem).identification->filter, limits_.joints,
+                            &result_.warnings);
   }
 
   ExcitationResult run();
@@ -309,6 +310,7 @@ void Excitation::compare() {
     compared.deviations = known.covariance.diagonal().cwiseSqrt();
     compared.halves = known.above;
     compared.base = merit.deviations;
+    compared.limits = reached_limits(limits_, path, response);
   }
   result_.compared = std::move(compared);
 }

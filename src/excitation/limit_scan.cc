@@ -39,6 +39,18 @@ double turning_time(const TrajectorySpace& space, const Eigen::VectorXd& coeffic
 
 }  // namespace
 
+Eigen::RowVectorXd samples_of(const LimitedSignal& signal, const DrivePath& path,
+                              const PathResponse& response) {
+  const Eigen::MatrixXd& from =
+      signal.is_follower
+          ? signal.kind == Kind::kPosition ? response.follower_position : response.follower_velocity
+      : signal.kind == Kind::kEffort   ? response.effort
+      : signal.kind == Kind::kPosition ? path.position
+      : signal.kind == Kind::kVelocity ? path.velocity
+                                       : path.acceleration;
+  return from.row(signal.joint);
+}
+
 double LimitScan::relative(const ScanPoint& point, std::size_t signal) const {
   return limits_.signals[signal].relative(point.values[to_signed(signal)]);
 }
@@ -70,22 +82,12 @@ Status LimitScan::evaluate(const Eigen::VectorXd& x, const std::vector<double>& 
   const DrivePath path = space_.path(x, SampledShapes(space_.basis(), times));
   PathResponse response;
   if (Status status = motion_.respond(path, false, &response); !status.ok()) return status;
-  for (std::size_t k = 0; k < times.size(); ++k) {
-    const auto column = to_signed(k);
-    ScanPoint point{times[k], Eigen::VectorXd(to_signed(limits_.signals.size()))};
-    for (std::size_t s = 0; s < limits_.signals.size(); ++s) {
-      const LimitedSignal& signal = limits_.signals[s];
-      const Eigen::MatrixXd& from = signal.is_follower             ? signal.kind == Kind::kPosition
-                                                                         ? response.follower_position
-                                                                         : response.follower_velocity
-                                    : signal.kind == Kind::kEffort ? response.effort
-                                    : signal.kind == Kind::kPosition ? path.position
-                                    : signal.kind == Kind::kVelocity ? path.velocity
-                                                                     : path.acceleration;
-      point.values[to_signed(s)] = from(signal.joint, column);
-    }
-    points->push_back(std::move(point));
-  }
+  const auto count = to_signed(limits_.signals.size());
+  Eigen::MatrixXd values(count, path.samples());
+  for (Eigen::Index s = 0; s < count; ++s)
+    values.row(s) = samples_of(limits_.signals[to_index(s)], path, response);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    points->push_back({times[k], values.col(to_signed(k))});
   std::sort(points->begin(), points->end(),
             [](const ScanPoint& a, const ScanPoint& b) { return a.time < b.time; });
   return {};

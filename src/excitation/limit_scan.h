@@ -16,6 +16,10 @@ struct ScannedSignal {
   double lowest = 0.0, highest = 0.0;
 };
 
+/// The samples of a limited signal along a path, a row.
+Eigen::RowVectorXd samples_of(const LimitedSignal& signal, const DrivePath& path,
+                              const PathResponse& response);
+
 /// Searches the extreme values of all limited signals over a whole period: at many times, with more
 /// times where a joint changes its direction, since friction changes its sign there within a small
 /// part of a sample, and with ever finer times at the largest peaks.

@@ -77,6 +77,7 @@ IdentificationResult evaluate_model(const Problem& problem, const StudyRecording
                       "the study has no recordings by which to judge the model", "",
                       "at least one recording under identify.data or identify.holdout"});
   const std::vector<MeasuredJoint> joints = require_same_joints(all);
+  require_same_signals(all);
   const FitVariables variables(study_of(problem), &robot_of(problem));
   result.x = variables.start();
   result.parameters = variables.parameters(result.x);

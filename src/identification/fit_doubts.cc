@@ -19,8 +19,10 @@ constexpr double kSlopeSignal = 0.8;
 constexpr double kExplainsNothing = 0.1;  // share of an output below which a fit has failed
 constexpr double kWhiteBelow = 0.01;      // probability below which residuals do not count as white
 
-/// A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`.
+/// A motion is driven by the recorded efforts of its joint; its output is `JOINT/position`. Signals
+/// may have names that begin alike and belong to no joint: empty.
 std::string joint_of(const IdentificationDescription& options, const OutputFit& fit) {
+  if (fit.is_signal) return "";
   return options.residual == ResidualKind::kMotion ? fit.joint.substr(0, fit.joint.rfind('/'))
                                                    : fit.joint;
 }

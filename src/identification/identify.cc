@@ -31,6 +31,7 @@ Sources make_sources(const Problem& problem, const FitVariables& variables,
   std::vector<JointRecording> all = recordings.data;
   all.insert(all.end(), recordings.holdout.begin(), recordings.holdout.end());
   const std::vector<MeasuredJoint> joints = require_same_joints(all);
+  require_same_signals(all);
   Sources sources;
   sources.data = make_residuals(problem, variables, joints, recordings.data, cancel, warnings);
   if (!recordings.holdout.empty())

@@ -23,7 +23,8 @@ struct Regressor {
   std::vector<std::string> outputs;  ///< the joints whose motion determines all; then signals
   SeriesLengths lengths;             ///< rows of each recording
   std::vector<double> times;         ///< one per row [s]
-  Eigen::MatrixXd computed;          ///< rows x outputs [N m or N]
+  /// rows x outputs [N m or N], of joints without the known offset of their sensors
+  Eigen::MatrixXd computed;
   /// Free inertias by the numbers in which efforts are linear: LINK_m and so on.
   std::vector<std::string> names;
   Eigen::VectorXd values;  ///< of the numbers
@@ -37,7 +38,7 @@ struct Regressor {
 
 /// @param problem with tuned parameters and a block `identify`. @param x of
 /// FitVariables: the point of the derivatives; empty: the start. @param recordings all with the
-/// same joints; joints without efforts have a row, too
+/// same joints; efforts need not be recorded, and do not count
 /// @throws InputError as identify()
 Regressor find_regressor(const Problem& problem, const Eigen::VectorXd& x,
                          std::vector<JointRecording> recordings, const std::atomic<bool>* cancel);

@@ -39,14 +39,13 @@ std::unique_ptr<RecordingResiduals> residuals_alike(const Problem& problem,
                                            require_same_signals(recordings));
 }
 
-}  // namespace
-
-std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
-                                                   const FitVariables& variables,
-                                                   const std::vector<MeasuredJoint>& joints,
-                                                   const std::vector<JointRecording>& recordings,
-                                                   const std::atomic<bool>* cancel,
-                                                   Warnings* warnings) {
+/// As make_residuals(), whatever a mask leaves.
+std::unique_ptr<RecordingResiduals> residuals_of(const Problem& problem,
+                                                 const FitVariables& variables,
+                                                 const std::vector<MeasuredJoint>& joints,
+                                                 const std::vector<JointRecording>& recordings,
+                                                 const std::atomic<bool>* cancel,
+                                                 Warnings* warnings) {
   const auto has_settings = [](const JointRecording& recording) {
     return !recording.settings.empty();
   };
@@ -66,6 +65,19 @@ std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
     begin = end;
   }
   return std::make_unique<StackedResiduals>(std::move(parts));
+}
+
+}  // namespace
+
+std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,
+                                                   const FitVariables& variables,
+                                                   const std::vector<MeasuredJoint>& joints,
+                                                   const std::vector<JointRecording>& recordings,
+                                                   const std::atomic<bool>* cancel,
+                                                   Warnings* warnings) {
+  auto residuals = residuals_of(problem, variables, joints, recordings, cancel, warnings);
+  if (residuals) require_counted(residuals->outputs(), residuals->counted(), recordings);
+  return residuals;
 }
 
 FittedSeries series_of(const RecordingResiduals& source, const Eigen::MatrixXd& residuals) {

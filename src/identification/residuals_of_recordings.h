@@ -17,7 +17,8 @@ namespace codesign {
 
 /// The residuals of recordings as `identify:` of the study counts them: of efforts, or of motions.
 /// Recordings with the same values of parameters have one model.
-/// @param joints require_same_joints() of all recordings. @param warnings appended to
+/// @param joints require_same_joints() of all recordings, which have passed require_same_signals()
+/// @param warnings appended to
 /// @return null once `cancel` is set. @throws InputError for recordings that do not fit the
 /// mechanism
 std::unique_ptr<RecordingResiduals> make_residuals(const Problem& problem,

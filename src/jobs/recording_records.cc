@@ -53,6 +53,8 @@ Json compared_json(const ExcitationResult& result) {
     object["deviations"][result.numbers[k].name] = compared.deviations[to_signed(k)];
   for (std::size_t k = 0; k < result.base.size(); ++k)
     object["base"][result.base[k].expression] = compared.base[to_signed(k)];
+  for (const KeptLimit& limit : compared.limits)
+    object["limits"][limit.limits.name] = record_json(limit);
   return object;
 }
 

@@ -129,8 +129,10 @@ JointRecording recording_of(const RecordingDescription& of, const RecordingArray
 }
 
 /// The recordings that a study names, or arrays in place of them.
+/// @param with_efforts whether joints that the study calibrates must have efforts in arrays
 StudyRecordings recordings_of(const Problem& problem, const std::optional<RecordingArrays>& arrays,
-                              Warnings* warnings, const std::atomic<bool>* cancel) {
+                              bool with_efforts, Warnings* warnings,
+                              const std::atomic<bool>* cancel) {
   const IdentificationDescription& identification = *study_of(problem).identification;
   if (!arrays) {
     const std::string folder =
@@ -139,6 +141,7 @@ StudyRecordings recordings_of(const Problem& problem, const std::optional<Record
                            cancel);
   }
   IdentificationDescription given = identification;
+  if (!with_efforts) given.joints.clear();
   given.data = descriptions_of(problem, arrays->data);
   given.holdout = descriptions_of(problem, arrays->holdout);
   const auto reader = [&arrays](const RecordingDescription& of, const std::string& /*path*/,
@@ -227,7 +230,8 @@ Identified identify(const Problem& problem, const std::optional<RecordingArrays>
   else
     require_recordings_named(identified.problem);
   Warnings warnings;
-  const StudyRecordings recordings = recordings_of(identified.problem, arrays, &warnings, cancel);
+  const StudyRecordings recordings =
+      recordings_of(identified.problem, arrays, true, &warnings, cancel);
   FitLines lines(problem.optimizer_options().max_evaluations);
   const auto observer = [&](const FitTrial& trial) {
     if (!tell) return true;
@@ -261,7 +265,7 @@ Regressor regressor(const Problem& problem, const RecordingArrays& arrays,
   for (std::size_t k = 0; k < study.tuned.size(); ++k)
     x[to_signed(k)] = design[to_index(study.tuned[k])];
   Warnings known_warnings;
-  return find_regressor(of, x, recordings_of(of, at, &known_warnings, cancel).data, cancel);
+  return find_regressor(of, x, recordings_of(of, at, false, &known_warnings, cancel).data, cancel);
 }
 
 std::vector<Failure> write_folder(const Identified& identified, const std::string& folder) {

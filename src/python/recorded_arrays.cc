@@ -52,7 +52,7 @@ RecordedArrays arrays_of(const py::tuple& recording) {
   for (const auto& [joint, speed] : to_settings(recording[5].cast<py::dict>())) {
     if (!(speed > 0.0))
       throw InputError({{"arrays", 0},
-                        arrays.element + ".mask." + joint,
+                        arrays.element + ".mask" + (joint.empty() ? "" : "." + joint),
                         "not above zero",
                         to_decimal(speed),
                         "a speed in rad/s or m/s"});

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "description/named_file.h"
+#include "description/recording_masks.h"
 #include "math/arrays.h"
 #include "recordings/even_stamps.h"
 #include "recordings/measured_motion.h"
@@ -140,18 +141,6 @@ std::vector<JointRecording> long_enough(std::vector<JointRecording> pieces,
   return pieces;
 }
 
-/// Looks for mistakes, one check after the other until it is cancelled, and mends turns and stamps.
-void check_part(JointRecording* part, const Context& context) {
-  check_spikes(*part, context.warnings, context.cancel);
-  if (is_set(context.cancel)) return;
-  unwrap_turns(context.robot, part, context.warnings);
-  check_units(context.robot, *part, context.warnings);
-  if (is_set(context.cancel)) return;
-  // Before gaps are looked for, since late stamps look like missing samples; and again behind it,
-  // since a clock may go on differently after a gap.
-  even_stamps(part, context.warnings);
-}
-
 std::vector<JointRecording> load(const std::vector<RecordingDescription>& descriptions,
                                  const Context& context) {
   std::vector<JointRecording> recordings;
@@ -163,8 +152,9 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
     require_calibrated_joints(whole, context.identification);
     JointRecording part = checked_part(whole, description.from, description.to);
     add_starts(description, &part);
+    refuse_masks_in_motion(description, context.identification.residual);
     add_masks(description, &part);
-    check_part(&part, context);
+    check_part(context.robot, &part, context.warnings, context.cancel);
     if (is_set(context.cancel)) break;
     std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
     require_one_piece(description, pieces);
@@ -176,17 +166,39 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
   return recordings;
 }
 
+/// Whether the joints of one recording are the same at sample k as those of another one at sample
+/// i.
+bool is_same_sample(const JointRecording& one, std::size_t k, const JointRecording& other,
+                    std::size_t i) {
+  return std::all_of(one.joints.begin(), one.joints.end(), [&](const JointSamples& samples) {
+    const JointSamples* same = other.find(samples.joint);
+    const auto is_same = [k, i](const std::vector<double>& a, const std::vector<double>& b) {
+      return a.empty() == b.empty() && (a.empty() || a[k] == b[i]);
+    };
+    return same != nullptr && is_same(samples.position, same->position) &&
+           is_same(samples.velocity, same->velocity);
+  });
+}
+
+/// Whether arrays, which have no file, are parts of one recording: at all common times the same.
+/// Recordings of another motion may have a few samples in common, of a robot at rest.
+bool share_arrays(const JointRecording& one, const JointRecording& other) {
+  std::size_t common = 0, i = 0;
+  for (std::size_t k = 0; k < one.times.size(); ++k) {
+    while (i < other.times.size() && other.times[i] < one.times[k]) ++i;
+    if (i == other.times.size()) break;
+    if (other.times[i] != one.times[k]) continue;
+    if (!is_same_sample(one, k, other, i)) return false;
+    ++common;
+  }
+  return common >= kLeastSamples;
+}
+
 /// Whether two recordings have samples in common: the same places of one file, with the same
 /// numbers.
 bool share_samples(const JointRecording& one, const JointRecording& other) {
-  // Arrays have no file: another one that begins alike is another recording.
-  if (one.is_given && one.times != other.times) return false;
-  const auto has_same_positions = [&](const JointSamples& samples) {
-    const JointSamples* same = other.find(samples.joint);
-    return same != nullptr && same->position == samples.position;
-  };
-  if (one.is_given && !std::all_of(one.joints.begin(), one.joints.end(), has_same_positions))
-    return false;
+  if (one.is_given != other.is_given) return false;
+  if (one.is_given) return share_arrays(one, other);
   const std::size_t place = std::max(one.places.front(), other.places.front());
   if (one.file != other.file || one.topic != other.topic ||
       place > std::min(one.places.back(), other.places.back()))
@@ -272,6 +284,18 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   for (const SignalSamples& samples : recording.signals)
     part.signals.push_back({samples.signal, cut(samples.values)});
   return part;
+}
+
+void check_part(const RobotDescription& robot, JointRecording* part, Warnings* warnings,
+                const std::atomic<bool>* cancel) {
+  check_spikes(*part, warnings, cancel);
+  if (is_set(cancel)) return;
+  unwrap_turns(robot, part, warnings);
+  check_units(robot, *part, warnings);
+  if (is_set(cancel)) return;
+  // Before gaps are looked for, since late stamps look like missing samples; and again behind it,
+  // since a clock may go on differently after a gap.
+  even_stamps(part, warnings);
 }
 
 StudyRecordings load_recordings(const IdentificationDescription& identification,

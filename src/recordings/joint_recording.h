@@ -86,8 +86,13 @@ struct StudyRecordings {
   std::vector<JointRecording> data, holdout;
 };
 
-/// Reads and checks the recordings that a study names: checked_part(), unwrap_turns(),
-/// check_units(), even_stamps(), without_gaps(). Each recording must have all joints of
+/// Looks for mistakes, one check after the other until it is cancelled, and mends turns and stamps:
+/// check_spikes(), unwrap_turns(), check_units(), even_stamps().
+void check_part(const RobotDescription& robot, JointRecording* part, Warnings* warnings,
+                const std::atomic<bool>* cancel = nullptr);
+
+/// Reads and checks the recordings that a study names: checked_part(), check_part(),
+/// without_gaps(). Each recording must have all joints of
 /// `identify.joints`.
 /// @param folder base of relative paths; empty: only absolute paths are accepted.
 /// @param reader reads bags; if it is empty, a study that names a bag is refused.

@@ -87,16 +87,18 @@ std::vector<std::string> names_in(const std::vector<std::string_view>& cells) {
   return names;
 }
 
-std::string text_of_file(const RecordingDescription& description, const std::string& path) {
+std::string text_of_file(const RecordingDescription& description, const std::string& path,
+                         const std::string& option) {
   constexpr std::streamoff kMostBytes = std::streamoff{2} << 30;
   const auto fail = [&](const std::string& message, const std::string& allowed) {
-    throw InputError({description.where, description.element + ".csv", message, path, allowed});
+    throw InputError({description.where, option.empty() ? description.element + ".csv" : option,
+                      message, path, allowed});
   };
   errno = 0;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file)
     fail(std::string("the file cannot be read: ") + std::strerror(errno),
-         "a path, relative to the folder of the study");
+         option.empty() ? "a path, relative to the folder of the study" : "the path of a table");
   const std::streamoff size = file.tellg();
   if (size < 0 || size > kMostBytes)
     fail("no file, or one that is too large", "a file of at most 2 GB");
@@ -301,9 +303,9 @@ int index_of(const ColumnDescription& column, const NumberTable& table) {
 }
 
 JointRecording read_table_recording(const RecordingDescription& description,
-                                    const std::string& path,
-                                    const std::vector<std::string>& joints) {
-  const NumberTable table(path, text_of_file(description, path), description.delimiter);
+                                    const std::string& path, const std::vector<std::string>& joints,
+                                    const std::string& option) {
+  const NumberTable table(path, text_of_file(description, path, option), description.delimiter);
   const RecordingDescription found =
       description.time ? description : with_found_columns(description, table, joints);
   std::vector<int> indices = {index_of(*found.time, table)};

@@ -70,11 +70,12 @@ int index_of(const ColumnDescription& column, const NumberTable& table);
 /// Reads a table of numbers without checking their values. Without `columns` in the description,
 /// the columns named `time` (or `t`) and `JOINT/position`, `JOINT/velocity`, `JOINT/effort` are
 /// read.
-/// @param path of the file, at most 2 GB. @param joints known names of joints.
+/// @param path of the file, at most 2 GB. @param joints known names of joints. @param option of the
+/// command line that names the file; empty: an entry of the study does
 /// @throws InputError for a file that cannot be read, a missing column, or a cell that is not a
 /// number.
 JointRecording read_table_recording(const RecordingDescription& description,
-                                    const std::string& path,
-                                    const std::vector<std::string>& joints);
+                                    const std::string& path, const std::vector<std::string>& joints,
+                                    const std::string& option = "");
 
 }  // namespace codesign

@@ -1,9 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cli/run_fixture.h"
 #include "excitation/excited_cases.h"
 #include "jobs/json.h"
+#include "text/number_text.h"
 
 namespace codesign::cli {
 namespace {
@@ -57,6 +60,62 @@ TEST(ExciteCommand, PrintsWhatIsExpected) {
       << outcome.out;
   EXPECT_NE(outcome.out.find("hinge/effort"), std::string::npos);
   EXPECT_NE(outcome.err.find("start 1, evaluation 1: criterion"), std::string::npos) << outcome.err;
+}
+
+/// A table of four seconds of a sine, with 30 samples from `gap` on left out and positions from
+/// `turn` on a whole turn lower.
+std::string sine_table(double amplitude, int gap = 200, int turn = 400) {
+  std::string text = "time,hinge/position\n";
+  for (int k = 0; k < 400; ++k)
+    if (const double t = 0.01 * k; k < gap || k >= gap + 30)
+      text += std::to_string(t) + "," +
+              to_decimal(amplitude * std::sin(3.0 * t) - (k >= turn ? 6.283185307179586 : 0.0)) +
+              "\n";
+  return text;
+}
+
+struct Comparison : ExciteFiles {
+  Outcome run(const std::string& table, bool is_json) const {
+    if (!table.empty()) write("given.csv", table);
+    std::vector<std::string> words = {"excite", folder.path("model.urdf"),
+                                      folder.path("study.yaml"), "--compare",
+                                      folder.path("given.csv")};
+    if (is_json) words.emplace_back("--json");
+    return run_words(words);
+  }
+};
+
+TEST(ExciteCommand, SaysWhetherAGivenTrajectoryKeepsTheLimits) {
+  const Comparison files;
+  const Outcome kept = files.run(sine_table(0.5, 400), false);
+  ASSERT_EQ(kept.code, kDone) << kept.err;
+  EXPECT_NE(kept.out.find("the compared trajectory keeps all limits at its samples"),
+            std::string::npos)
+      << kept.out;
+  const Outcome broken = files.run(sine_table(-1.5, 400), false);
+  EXPECT_NE(broken.out.find("breaks limits, the worst: hinge/"), std::string::npos) << broken.out;
+  const Json limits = json_of(files.run(sine_table(-1.5, 400), true))["compared"]["limits"];
+  EXPECT_NEAR(limits["hinge/velocity"]["highest"].get<double>(), 4.5, 1e-2);
+  EXPECT_EQ(limits["hinge/velocity"]["upper"], 4.0);
+}
+
+TEST(ExciteCommand, LooksAtAGivenTrajectoryAsAtRecordings) {
+  const Comparison files;
+  const Outcome missing = files.run("", true);
+  EXPECT_EQ(missing.code, kBadInput);
+  EXPECT_EQ(json_of(missing)["error"]["element"], "--compare");
+  const Json plain = json_of(files.run(sine_table(0.5, 400), true));
+  const Json turned = json_of(files.run(sine_table(0.5, 400, 250), true));
+  ASSERT_EQ(plain["warnings"].size(), 1U) << plain["warnings"];
+  EXPECT_EQ(plain["warnings"][0]["code"], "recording_not_filtered");
+  ASSERT_EQ(turned["warnings"].size(), 2U) << turned["warnings"];
+  EXPECT_EQ(turned["warnings"][0]["code"], "recording_unwrapped");
+  EXPECT_NEAR(
+      turned["compared"]["condition"].get<double>() / plain["compared"]["condition"].get<double>(),
+      1.0, 1e-3);
+  const Outcome gap = files.run(sine_table(0.5), true);
+  EXPECT_EQ(gap.code, kBadInput);
+  EXPECT_NE(json_of(gap)["error"]["message"].get<std::string>().find("gap"), std::string::npos);
 }
 
 TEST(ExciteCommand, NamesWhatNoTrajectoryTells) {

@@ -8,6 +8,7 @@
 #include "identification/effort/effort_residuals.h"
 #include "identification/identify.h"
 #include "identification/motion_rig.h"
+#include "identification/regressor.h"
 #include "identification/simulated_recording.h"
 #include "identification/swinging_arm.h"
 
@@ -93,6 +94,30 @@ TEST(RecordedSignals, OthersInOneRecordingAreRefused) {
   recordings.data = {on_a_plate(true), on_a_plate(true)};
   recordings.data[1].signals.pop_back();
   EXPECT_THROW(identify(sensed_arm(), recordings, {}, nullptr), InputError);
+}
+
+/// Recordings with values of their own have a model of their own, and so has a holdout.
+TEST(RecordedSignals, OthersInAHoldoutOrWithOtherValuesAreRefused) {
+  const Problem problem = load_problem(
+      {"arm.urdf", kSensedArm}, {},
+      {"study.yaml",
+       "identify: {data: [{csv: data.csv}], filter: {cutoff: 0}}\nparameters: {mass: {}}\n"});
+  StudyRecordings held;
+  held.data = {on_a_plate(true)};
+  held.holdout = {on_a_plate(true)};
+  held.holdout[0].signals.pop_back();
+  StudyRecordings set;
+  set.data = {on_a_plate(true), on_a_plate(true)};
+  set.data[0].signals.pop_back();
+  set.data[1].settings = {{3, 0.1}};
+  StudyRecordings none = set;
+  none.data[1].signals.clear();
+  for (const StudyRecordings& recordings : {held, set, none}) {
+    EXPECT_THROW(identify(problem, recordings, {}, nullptr), InputError);
+    EXPECT_THROW(evaluate_model(problem, recordings, nullptr), InputError);
+  }
+  EXPECT_THROW(find_regressor(problem, {}, set.data, nullptr), InputError);
+  EXPECT_NO_THROW(find_regressor(problem, {}, held.data, nullptr));
 }
 
 /// Exact derivatives, also of a mechanism with loops whose dimensions are tuned.

@@ -2,6 +2,7 @@
 // Samples at which a joint is slow do not count: friction at rest is any value up to breakaway.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "identification/effort/effort_doubts.h"
@@ -108,13 +109,59 @@ TEST(SpeedMask, DoubtsCountWhatMoves) {
   EXPECT_EQ(doubts[0].mistake, "with the other sign");
 }
 
+/// The recording that has the mask is named, not the first one.
 TEST(SpeedMask, AJointThatNeverMovesSoFastIsRefused) {
+  StudyRecordings recordings;
+  recordings.holdout = {recording_with_rests(0.05), recording_with_rests(50.0)};
+  recordings.holdout[1].element = "identify.holdout[1]";
+  recordings.holdout[1].where = {"study.yaml", 7};
+  recordings.data = {recordings.holdout[1]};
+  recordings.data[0].element = "identify.data[3]";
   try {
-    fit_of_rests("cutoff: 0", 50.0);
+    identify(swinging_problem("{csv: data.csv}", "  filter: {cutoff: 0}\n"), recordings, {},
+             nullptr);
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("mask"), std::string::npos) << error.what();
+    EXPECT_EQ(error.fault().element, "identify.data[3].mask.speed") << error.what();
+    EXPECT_EQ(error.fault().where.line, 7);
   }
+}
+
+/// The samples of all recordings count together, also of those with values of their own.
+TEST(SpeedMask, RecordingsWithValuesOfTheirOwnCountTogether) {
+  const Problem problem = load_problem(
+      {"arm.urdf", kSwingingArm}, {},
+      {"study.yaml",
+       "identify: {data: [{csv: a.csv}], filter: {cutoff: 0}}\nparameters: {inertia: {}}\n"});
+  StudyRecordings recordings;
+  recordings.data = {recording_with_rests(0.05), recording_with_rests(50.0)};
+  recordings.data[0].settings = {{1, 0.4}};
+  recordings.data[1].settings = {{1, 0.5}};
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  ASSERT_TRUE(result.status.ok()) << result.status.cause;
+  EXPECT_NEAR(result.numbers[0].value, 0.3, 2e-3);
+}
+
+/// A mask that leaves few samples leaves hardly any of those by which a finished fit is doubted.
+TEST(SpeedMask, AFitOfFewFastSamplesIsKept) {
+  JointRecording recording = SwingingRig().record("identify.data[0]");
+  const auto fast = [&](double speed) {
+    return std::count_if(recording.joints[0].velocity.begin(), recording.joints[0].velocity.end(),
+                         [speed](double v) { return std::abs(v) >= speed; });
+  };
+  double speed = 3.5;
+  while (fast(speed) < 30) speed -= 0.01;
+  ASSERT_LT(fast(speed), 40) << "every second sample counts for doubts";
+  recording.joints[0].least_speed = speed;
+  StudyRecordings recordings;
+  recordings.data = {recording};
+  const Problem problem = swinging_problem("{csv: data.csv}", "  filter: {cutoff: 0}\n");
+  const IdentificationResult result = identify(problem, recordings, {}, nullptr);
+  EXPECT_EQ(result.data.size(), 1U);
+  EXPECT_NEAR(result.numbers[1].value, 0.4, 2e-2);
+  EXPECT_TRUE(find_effort_doubts(problem, recordings.data).empty());
+  recordings.data[0].joints[0].least_speed = 3.6;
+  EXPECT_THROW(find_effort_doubts(problem, recordings.data), InputError);
 }
 
 }  // namespace

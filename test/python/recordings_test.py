@@ -71,6 +71,10 @@ class Recordings(unittest.TestCase):
         self.assertEqual(by_joint.numbers["mass"], fit.numbers["mass"])
         with self.assertRaisesRegex(codesign.InputError, "mask"):
             problem.identify(codesign.Recording(t, q, wrong, mask=-1.0))
+        with self.assertRaisesRegex(codesign.InputError, r"arrays\.mask: "):
+            problem.identify(codesign.Recording(t, q, wrong, mask=-1.0))
+        with self.assertRaisesRegex(codesign.InputError, r"arrays\.mask.*no sample is left out"):
+            codesign.Problem(ARM, FIT + "identify: {residual: motion}\n").identify(codesign.Recording(t, q, wrong, mask=0.25))
 
     def test_a_force_in_place_of_an_effort(self):
         """Of a pendulum at 0.5 m the force along the rod is m (g cos q + 0.5 v^2)."""
@@ -112,6 +116,15 @@ class Regressor(unittest.TestCase):
         np.testing.assert_allclose(found.base @ found.base_values, found.matrix @ found.values, atol=1e-10)
         with self.assertRaises(KeyError):
             found["nothing"]
+
+    def test_a_sensor_changes_no_effort(self):
+        t, q = motion()
+        plain = codesign.Problem(TWO, STUDY).regressor(t, q)
+        study = STUDY.replace("cutoff: 0}", "cutoff: 0}, joints: {one: {effort_scale: 3, delay: 0.04, offset: 2.0}}")
+        for recording in (codesign.Recording(t, q), codesign.Recording(t, q, {"one": np.cos(t), "two": np.sin(t)})):
+            found = codesign.Problem(TWO, study).regressor(recording)
+            np.testing.assert_allclose(found.computed, plain.computed, atol=1e-9)
+            np.testing.assert_allclose(found.matrix, plain.matrix, atol=1e-9)
 
     def test_what_it_refuses(self):
         t, q = motion()

@@ -1,4 +1,5 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <atomic>
 #include <fstream>
 
@@ -94,6 +95,42 @@ TEST_F(LoadRecordings, SamplesThatAreUsedTwiceAreTold) {
   identification_.data.push_back(entry("swing.csv", "identify.data[1]"));
   load();
   EXPECT_EQ(warnings_.size(), 2U);
+}
+
+/// A reader in place of arrays: samples `begin` to `end` - 1 of one motion, or of another one.
+TEST_F(LoadRecordings, OverlappingArraysAreNoticed) {
+  const auto warns = [this](std::size_t begin, std::size_t end, bool is_other) {
+    warnings_.clear();
+    identification_.data[0].is_bag = true;
+    identification_.holdout = {identification_.data[0]};
+    identification_.holdout[0].element = "identify.holdout[0]";
+    load("/", [&](const RecordingDescription& of, const std::string&,
+                  const std::vector<std::string>&, Warnings*) {
+      const bool is_data = of.element == "identify.data[0]";
+      JointRecording whole = swing(200);
+      for (std::size_t k = 60; is_other && !is_data && k < whole.times.size(); ++k)
+        whole.joints[0].position[k] *= 1.01;
+      JointRecording part = is_data ? part_of(whole, 0, 120) : part_of(whole, begin, end);
+      part.file = "arrays";
+      part.is_given = true;
+      for (std::size_t k = 0; k < part.places.size(); ++k) part.places[k] = k + 1;
+      part.element = of.element;
+      return part;
+    });
+    return std::any_of(warnings_.begin(), warnings_.end(),
+                       [](const Warning& warning) { return warning.code == "recording_repeated"; });
+  };
+  EXPECT_TRUE(warns(0, 120, false));
+  EXPECT_TRUE(warns(60, 200, false));
+  EXPECT_FALSE(warns(120, 200, false)) << "the next part";
+  EXPECT_FALSE(warns(0, 120, true)) << "begins alike";
+}
+
+TEST_F(LoadRecordings, MasksInMotionAreRefused) {
+  identification_.data[0].masks = {{"hinge", 0.1, {"study.yaml", 4}}};
+  EXPECT_NO_THROW(load());
+  identification_.residual = ResidualKind::kMotion;
+  EXPECT_EQ(refusal_of([this] { load(); }).element, "identify.data[0].mask");
 }
 
 // The study of a shipped case names a recording that its reader has to make.

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/arrays.h"
+#include "recordings/recording_check.h"
+
 namespace codesign {
 namespace {
 
@@ -60,6 +63,30 @@ void require_efforts(const std::vector<MeasuredJoint>& joints,
     throw recording_error(recordings.front(),
                           "no joint has efforts in all recordings, so that there is nothing to fit",
                           "", "efforts of at least one joint, or residual: motion");
+}
+
+bool is_counted(const Eigen::MatrixXd& counted) {
+  return counted.size() == 0 ||
+         counted.colwise().sum().minCoeff() >= static_cast<double>(kLeastSamples);
+}
+
+void require_counted(const std::vector<std::string>& outputs, const Eigen::MatrixXd& counted,
+                     const std::vector<JointRecording>& recordings) {
+  for (Eigen::Index k = 0; k < counted.cols(); ++k) {
+    if (is_counted(counted.col(k))) continue;
+    const std::string& joint = outputs[to_index(k)];
+    const auto masked =
+        std::find_if(recordings.begin(), recordings.end(), [&joint](const JointRecording& of) {
+          const JointSamples* samples = of.find(joint);
+          return samples != nullptr && samples->least_speed > 0.0;
+        });
+    const JointRecording& named = masked == recordings.end() ? recordings.front() : *masked;
+    throw InputError({named.where, named.element + ".mask.speed",
+                      "the joint is hardly ever as fast: the mask leaves " +
+                          std::to_string(static_cast<int>(counted.col(k).sum())) + " samples of " +
+                          joint,
+                      "", "a lower speed, or recordings in which the joint moves"});
+  }
 }
 
 std::vector<SignalDescription> require_same_signals(const std::vector<JointRecording>& recordings) {

@@ -1,6 +1,8 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "identification/effort/driven_system.h"
@@ -16,6 +18,13 @@ std::vector<MeasuredJoint> require_same_joints(const std::vector<JointRecording>
 /// @throws InputError if none of these joints has efforts, and no signal was recorded.
 void require_efforts(const std::vector<MeasuredJoint>& joints,
                      const std::vector<JointRecording>& recordings);
+/// @param outputs joints, then signals. @param counted ResidualSource::counted() of these
+/// recordings
+/// @throws InputError for a joint that is hardly ever as fast as its samples must be
+void require_counted(const std::vector<std::string>& outputs, const Eigen::MatrixXd& counted,
+                     const std::vector<JointRecording>& recordings);
+/// Whether enough residuals of each output count.
+bool is_counted(const Eigen::MatrixXd& counted);
 /// The signals that all recordings hold. @throws InputError if a recording lacks one, or has others
 std::vector<SignalDescription> require_same_signals(const std::vector<JointRecording>& recordings);
 

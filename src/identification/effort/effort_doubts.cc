@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -61,16 +62,17 @@ Eigen::MatrixXd drive_line_columns(const Eigen::VectorXd& velocity,
   return columns;
 }
 
-/// Unfiltered efforts at few samples.
+/// Unfiltered efforts at few samples, or at all.
 std::vector<MeasuredMotion> thinned_motions(const std::vector<JointRecording>& recordings,
-                                            FilterOptions filter) {
+                                            FilterOptions filter, bool is_thinned) {
   Warnings known_warnings;
   filter.residual_cutoff = 0.0;
   filter.decimate = 1;
   std::vector<MeasuredMotion> motions;
   for (const JointRecording& recording : recordings) {
     motions.push_back(measured_motion(recording, filter, &known_warnings));
-    motions.back().every = std::max<Eigen::Index>(1, motions.back().fitted() / kSamples);
+    if (is_thinned)
+      motions.back().every = std::max<Eigen::Index>(1, motions.back().fitted() / kSamples);
   }
   return motions;
 }
@@ -79,9 +81,17 @@ std::optional<EffortEvidence> evidence_of(const Problem& problem, const FitVaria
                                           const std::vector<JointRecording>& recordings) {
   const std::vector<MeasuredJoint> joints = require_same_joints(recordings);
   FilterOptions filter = study_of(problem).identification->filter;
-  std::vector<MeasuredMotion> motions = thinned_motions(recordings, filter);
   filter.residual_cutoff = 0.0;
-  EffortResiduals residuals(*system_of(problem), variables, joints, std::move(motions), filter, 1);
+  const auto residuals_at = [&](bool is_thinned) {
+    return std::make_unique<EffortResiduals>(*system_of(problem), variables, joints,
+                                             thinned_motions(recordings, filter, is_thinned),
+                                             filter, 1);
+  };
+  // A mask that leaves enough samples may leave too few of those that are used here.
+  std::unique_ptr<EffortResiduals> source = residuals_at(true);
+  if (!is_counted(source->counted())) source = residuals_at(false);
+  EffortResiduals& residuals = *source;
+  require_counted(residuals.outputs(), residuals.counted(), recordings);
   EffortEvidence evidence;
   const Eigen::VectorXd& x = variables.start();
   if (!residuals.begin(x).ok() || !residuals.evaluate(x, &evidence.computed, &evidence.by_x).ok())

@@ -7,7 +7,6 @@
 
 #include "math/arrays.h"
 #include "recordings/measured_motion.h"
-#include "recordings/recording_check.h"
 
 namespace codesign {
 namespace {
@@ -36,7 +35,6 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
       filter_(filter),
       signals_(std::move(signals)) {
   const std::vector<std::string> names = names_of(joints);
-  const SourceLocation where = joints.empty() ? SourceLocation() : joints.front().where;
   std::vector<bool> with_effort;
   with_effort.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
@@ -65,7 +63,7 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
     rows_ += recording.fitted();
   }
   record();
-  count(where);
+  count();
 }
 
 const Eigen::VectorXd& EffortResiduals::recorded_of(const MeasuredMotion& recording,
@@ -192,7 +190,7 @@ Eigen::MatrixXd EffortResiduals::counted_of(std::size_t recording, std::size_t o
   return kept;
 }
 
-void EffortResiduals::count(const SourceLocation& where) {
+void EffortResiduals::count() {
   const auto has_mask = [](const MeasuredMotion& motion) {
     return std::any_of(motion.joints.begin(), motion.joints.end(),
                        [](const JointMotion& joint) { return joint.least_speed > 0.0; });
@@ -207,13 +205,6 @@ void EffortResiduals::count(const SourceLocation& where) {
         if (!counts(r, o, filter_.residual_cutoff > 0.0 ? motion.first + k * motion.every : k))
           counted_(row, to_signed(o)) = 0.0;
   }
-  for (std::size_t o = 0; o < outputs_.size(); ++o)
-    if (const double left = counted_.col(to_signed(o)).sum();
-        left < static_cast<double>(kLeastSamples))
-      throw InputError({where, "identify.data[].mask.speed",
-                        "the joint is hardly ever as fast: the mask leaves " +
-                            std::to_string(static_cast<int>(left)) + " samples of " + outputs_[o],
-                        "", "a lower speed, or recordings in which the joint moves"});
 }
 
 void EffortResiduals::record() {

@@ -25,8 +25,8 @@ class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
   /// @param joints the joints of the recordings whose motion counts, as require_same_joints()
-  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system(),
-  /// and for a joint that is hardly ever as fast as its samples must be
+  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system();
+  /// whether enough samples count is for the caller to ask, as require_counted() does
   EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
                   std::vector<MeasuredJoint> joints, std::vector<MeasuredMotion> recordings,
                   const FilterOptions& filter, int threads,
@@ -83,8 +83,7 @@ class EffortResiduals final : public RecordingResiduals {
   bool counts(std::size_t recording, std::size_t output, Eigen::Index sample) const;
   const Eigen::VectorXd& recorded_of(const MeasuredMotion& recording, std::size_t output) const;
   void record();
-  /// @throws InputError at `where` if hardly any sample of a joint counts
-  void count(const SourceLocation& where);
+  void count();
 
   const FitVariables& variables_;
   const std::vector<MeasuredMotion> recordings_;

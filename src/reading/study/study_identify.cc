@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "description/recording_masks.h"
 #include "math/arrays.h"
 #include "reading/study/study_options.h"
 #include "reading/study/study_values.h"
@@ -59,17 +60,6 @@ void refuse_fitted_starts(const std::vector<RecordingDescription>& holdout) {
         throw InputError({start.position.where, recording.element + ".start." + start.joint,
                           "a holdout is never fitted, so that its start must be known", "a map",
                           "a number in rad or m"});
-}
-
-/// A simulation passes through rest, whatever is compared there.
-void refuse_masks(const IdentificationDescription& description) {
-  if (description.residual == ResidualKind::kEffort) return;
-  for (const auto* list : {&description.data, &description.holdout})
-    for (const RecordingDescription& recording : *list)
-      for (const SpeedMask& mask : recording.masks)
-        throw InputError({mask.where, recording.element + ".mask",
-                          "residuals in motion simulate rest, too: no sample is left out", "",
-                          "no mask, or residual: effort"});
 }
 
 LossOptions read_loss(const YamlValue& loss) {
@@ -133,7 +123,9 @@ IdentificationDescription read_identification(const YamlValue& identify,
     refuse_fitted_starts(description.holdout);
   }
   OptionReader{identify}("residual", kResidualNames, description.residual);
-  refuse_masks(description);
+  for (const auto* list : {&description.data, &description.holdout})
+    for (const RecordingDescription& recording : *list)
+      refuse_masks_in_motion(recording, description.residual);
   description.segment = segment_of(identify);
   if (const auto filter = identify.find("filter")) description.filter = read_filter(*filter);
   if (const auto joints = identify.find("joints"))

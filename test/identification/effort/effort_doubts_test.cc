@@ -225,6 +225,26 @@ TEST(EffortDoubts, AFitThatWasHinderedIsNotBlamedOnTheRecording) {
   EXPECT_NE(message_of(2).find("sign, unit, order?"), std::string::npos) << message_of(2);
 }
 
+/// A signal in motion may be named like the output of a joint, whose recorded effort is doubted.
+TEST(EffortDoubts, ASignalInMotionIsNoOutputOfAJoint) {
+  IdentificationDescription options;
+  options.residual = ResidualKind::kMotion;
+  IdentificationResult result;
+  OutputFit poor;
+  poor.joint = "hinge/velocity";
+  poor.explained = 0.2;
+  const std::vector<EffortDoubt> doubts = {{"hinge", -1.0, "with the other sign", 0.9}};
+  for (const bool is_signal : {false, true}) {
+    poor.is_signal = is_signal;
+    result.data = {poor};
+    Status failure;
+    const Warnings warnings = unexplained_outputs(options, result, doubts, &failure);
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_EQ(warnings[0].message.find("the other sign") == std::string::npos, is_signal);
+    EXPECT_EQ(failure.ok(), is_signal);
+  }
+}
+
 TEST(EffortDoubts, OutliersThatALossLeavesOutDoNotCount) {
   JointRecording recording = both_swing();
   for (std::size_t k = 10; k < recording.times.size(); k += 200)
