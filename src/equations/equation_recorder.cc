@@ -216,6 +216,15 @@ std::vector<VectorX<Traced>> EquationRecorder::record_stuck_slips() {
   return slips;
 }
 
+// The formulas go on reading `state`, so its references are put back.
+std::vector<VectorX<Traced>> EquationRecorder::record_turns() {
+  const auto references = state.turns;
+  formulas.track_turns(&state);
+  const auto positions = std::exchange(state.turns, references);
+  const Layout& layout = formulas.view().layout;
+  return {Eigen::Map<const VectorX<Traced>>(positions.data(), layout.drop_slot)};
+}
+
 std::vector<VectorX<Traced>> EquationRecorder::record_placement() {
   std::vector<VectorX<Traced>> motion(2);
   const StateView<Traced>& view = formulas.view();

@@ -26,6 +26,8 @@ struct EquationRecorder {
   std::vector<VectorX<Traced>> record_placement();
   /// Records stuck_slips().
   std::vector<VectorX<Traced>> record_stuck_slips();
+  /// Records Formulas::track_turns(), without the flags of dropped rows, which no step changes.
+  std::vector<VectorX<Traced>> record_turns();
   /// Records G and g, theory (14), (21).
   void record_residual() { formulas.residual(state, &G, &g); }
 

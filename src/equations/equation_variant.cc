@@ -137,23 +137,14 @@ void EquationVariant::record_motion(EquationPart part, ResidualRecording* begun)
 }
 
 void EquationVariant::record_turns(EquationRecorder* equations) {
-  record(EquationFunction::kTurns, [&] {
-    // The formulas go on reading this state: its references are put back.
-    State<Traced>& state = equations->state;
-    const auto references = state.turns;
-    equations->formulas.track_turns(&state);
-    // Without the flags of dropped rows, which no step changes.
-    return std::vector<VectorX<Traced>>{
-        vector(std::exchange(state.turns, references)).head(system_.layout().drop_slot)};
-  });
+  record(EquationFunction::kTurns, [&] { return equations->record_turns(); });
   // Those of the forest's pairs stay, and are no results.
+  const auto stays = [this](const ValueTask::Output& output) {
+    const Recording::Node& node = recording_->node(output.node);
+    return node.operation == Operation::kLeaf && node.a == kTurns;
+  };
   std::vector<ValueTask::Output>& outputs = at(EquationFunction::kTurns).outputs;
-  outputs.erase(std::remove_if(outputs.begin(), outputs.end(),
-                               [this](const ValueTask::Output& output) {
-                                 const Recording::Node& node = recording_->node(output.node);
-                                 return node.operation == Operation::kLeaf && node.a == kTurns;
-                               }),
-                outputs.end());
+  outputs.erase(std::remove_if(outputs.begin(), outputs.end(), stays), outputs.end());
 }
 
 void EquationVariant::record_switches(const Traced& g) {
