@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -93,6 +94,29 @@ std::optional<AtFrequency> sort_margins(std::vector<AtFrequency>* all, const Dec
     return decides(one.value, other.value);
   });
   return all->empty() ? std::nullopt : std::optional<AtFrequency>(all->front());
+}
+
+/// The frequency that stands for rest [rad/s]: 0, or beside it where |T| has a pole there: a motion
+/// that the loop does not see, such as the position of a speed loop.
+/// @param complementary |T(w)|. @param grid frequencies in rising order
+template <class Function>
+double rest_of(const Function& complementary, const std::vector<double>& grid) {
+  return std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid.front();
+}
+
+/// The lowest frequency at which |T| falls below sqrt(1/2) of its value at rest; none without one.
+template <class Function>
+std::optional<AtFrequency> bandwidth_of(const Function& complementary,
+                                        const std::vector<double>& grid, double rest) {
+  const double level = std::sqrt(0.5) * complementary(rest);
+  if (!std::isfinite(level) || level == 0.0) return {};
+  for (std::size_t k = 0; k < grid.size(); ++k) {
+    if (complementary(grid[k]) >= level) continue;
+    const double w = zero_between(k == 0 ? 0.0 : grid[k - 1], grid[k],
+                                  [&](double at) { return complementary(at) - level; });
+    return AtFrequency{w, w};
+  }
+  return {};
 }
 
 }  // namespace codesign

@@ -112,17 +112,8 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   if (period_ == 0.0) all.sensitivities.push_back({std::abs(1.0 + far), grid_.back()});
   margins->sensitivity = sort_margins(&all.sensitivities, std::greater<>());
   margins->complementary = sort_margins(&all.complementaries, std::greater<>());
-  // A motion that the loop does not see, such as the position of a speed loop, is a pole at w = 0.
-  margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
-  const double level = std::sqrt(0.5) * complementary(margins->rest);
-  if (!std::isfinite(level) || level == 0.0) return;
-  for (std::size_t k = 0; k < grid_.size(); ++k) {
-    if (complementary(grid_[k]) >= level) continue;
-    const double w = zero_between(k == 0 ? 0.0 : grid_[k - 1], grid_[k],
-                                  [&](double at_w) { return complementary(at_w) - level; });
-    margins->bandwidth = AtFrequency{w, w};
-    return;
-  }
+  margins->rest = rest_of(complementary, grid_);
+  margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
 }
 
 LoopMargins OpenLoop::margins() const {

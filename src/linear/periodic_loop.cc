@@ -289,16 +289,8 @@ void PeriodicLoop::find_peaks(LoopMargins* margins) const {
   margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
   margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
   const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
-  margins->rest = std::isfinite(complementary(0.0)) ? 0.0 : kBesideRest * grid_.front();
-  const double level = std::sqrt(0.5) * complementary(margins->rest);
-  if (!std::isfinite(level) || level == 0.0) return;
-  for (std::size_t k = 0; k < grid_.size(); ++k) {
-    if (complementary(grid_[k]) >= level) continue;
-    const double w = zero_between(k == 0 ? 0.0 : grid_[k - 1], grid_[k],
-                                  [&](double at_w) { return complementary(at_w) - level; });
-    margins->bandwidth = AtFrequency{w, w};
-    return;
-  }
+  margins->rest = rest_of(complementary, grid_);
+  margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
 }
 
 LoopMargins PeriodicLoop::margins() const {
