@@ -18,28 +18,25 @@ struct ContactNumbers {
   double onset = 0.0;  ///< w [m], far below every penetration that counts
 };
 
-/// delta |delta| (|delta| + w)^(n - 2) [m^n], for delta > 0 delta^n but for w. Its second
-/// derivative is finite where the bodies begin to touch, so that the derivatives of a step are,
-/// too. A step that begins while they touch sees a pull beyond: else one that is long enough to
-/// have all its stages behind a thin body would fall through it.
+/// delta (delta^2 + w^2)^((n - 1)/2) [m^n], for delta > 0 delta^n but for w. It is smooth and odd:
+/// where the bodies begin to touch, the second derivative, which derivatives of a step contain, is
+/// zero whatever sign rounding gives delta. A step that begins while they touch sees a pull beyond:
+/// else one that is long enough to have all its stages behind a thin body would fall through it.
 /// @param depth delta [m]. @param exponent n >= 1. @param onset w > 0 [m].
 template <class T>
 T contact_power(const T& depth, const T& exponent, double onset) {
   using std::exp;
   using std::log;
-  const T zero(0.0), size = is_less(depth, zero, false) ? -depth : depth;
-  return depth * size * exp((exponent - 2.0) * log(size + onset));
+  return depth * exp(0.5 * (exponent - 1.0) * log(depth * depth + onset * onset));
 }
 
-/// The integral of contact_power() by delta from 0 [m^(n+1)], but for terms of the order w^2.
+/// The integral of contact_power() by delta from 0 [m^(n+1)].
 template <class T>
 T contact_power_integral(const T& depth, const T& exponent, double onset) {
   using std::exp;
   using std::log;
-  const T zero(0.0);
-  if (!is_less(zero, depth, true)) return zero;
-  const T u = depth + onset, power = exp(exponent * log(u));
-  return power * (u / (exponent + 1.0) - 2.0 * onset / exponent);
+  const T above = exponent + 1.0, square = depth * depth + onset * onset;
+  return (exp(0.5 * above * log(square)) - exp(above * std::log(onset))) / above;
 }
 
 /// What the force depends on at one instant.

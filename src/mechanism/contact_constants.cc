@@ -13,7 +13,7 @@ namespace codesign {
 namespace {
 
 /// w of (13l) over the smaller extent of both shapes.
-constexpr double kOnset = 1e-11;
+constexpr double kOnset = 1e-10;
 
 template <class T>
 ShapeNumbers<T> shape_numbers(const ContactEnd& end, const std::vector<T>& parameters) {

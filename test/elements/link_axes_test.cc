@@ -6,6 +6,7 @@
 
 #include "equations/compiled.h"
 #include "equations/equations_fixture.h"
+#include "equations/formulas.h"
 #include "equations/generic_state.h"
 
 namespace codesign {

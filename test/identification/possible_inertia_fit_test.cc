@@ -3,7 +3,7 @@
 // reference is the semidefinite problem, solved here by a barrier in the inertial numbers.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,6 +15,7 @@
 #include "identification/effort/effort_residuals.h"
 #include "identification/fit/inertial_numbers.h"
 #include "identification/identify.h"
+#include "math/dense.h"
 #include "mechanism/mass_properties.h"
 #include "problem/load_problem.h"
 
@@ -180,7 +181,7 @@ class SemidefiniteReference {
         add_barrier(u, mu, &H, &slope);
         const Eigen::VectorXd s = H.diagonal().cwiseSqrt().cwiseInverse();
         const Eigen::VectorXd p = -s.cwiseProduct(
-            (s.asDiagonal() * H * s.asDiagonal()).ldlt().solve(s.cwiseProduct(slope)));
+            solve_positive_definite(s.asDiagonal() * H * s.asDiagonal(), s.cwiseProduct(slope)));
         if (-slope.dot(p) < 1e-8 * mu) break;
         double t = 1.0;
         const double here = value(u, mu);
@@ -196,10 +197,10 @@ class SemidefiniteReference {
   double value(const Eigen::VectorXd& u, double mu) const {
     double sum = 0.5 * u.dot(H_ * u) + g_.dot(u);
     for (const int first : firsts_) {
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> eigen(
-          pseudo_inertia(u.segment(first, 10)));
-      if (!(eigen.eigenvalues()[0] > 0.0)) return std::numeric_limits<double>::infinity();
-      sum -= mu * eigen.eigenvalues().array().log().sum();
+      const Eigen::VectorXd eigenvalues =
+          symmetric_eigen(pseudo_inertia(u.segment(first, 10))).values;
+      if (!(eigenvalues[0] > 0.0)) return std::numeric_limits<double>::infinity();
+      sum -= mu * eigenvalues.array().log().sum();
     }
     for (const int k : positive_) {
       if (!(u[k] > 0.0)) return std::numeric_limits<double>::infinity();

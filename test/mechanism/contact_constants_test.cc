@@ -78,7 +78,7 @@ TEST(ContactConstants, SidesAndLosses) {
   EXPECT_LT((c.surface.frame.R.col(2) - Vector3<double>(1.0, 0.0, 0.0)).norm(), 1e-15);
   EXPECT_NEAR(c.force.loss, 1.5 * 0.2 / 2.0, 1e-15) << "Hunt and Crossley";
   EXPECT_EQ(c.force.exponent, 1.5);
-  EXPECT_NEAR(c.force.onset, 5e-13, 1e-25);
+  EXPECT_NEAR(c.force.onset, 5e-12, 1e-24);
 }
 
 TEST(ContactConstants, DesignsThatAreImpossibleHaveASentence) {

@@ -151,11 +151,11 @@ TEST(PairGeometry, ABallIsReadByAnglesOnlyIfItsAxesAreNormal) {
 }
 
 TEST(PairGeometry, ADistanceHasTwoPointsThatNeedNotCoincide) {
-  const RobotDescription robot =
-      read_urdf(pendulum("<axis xyz='0 1 0'/>",
-                         "<loop name='rod' type='codesign:distance'><codesign:length "
-                         "value='2'/><predecessor link='ground'><origin xyz='1 0 0'/></predecessor>"
-                         "<successor link='arm'><origin xyz='0 0 -1'/></successor></loop>"));
+  const RobotDescription robot = read_urdf(
+      hinged_arm("<axis xyz='0 1 0'/>",
+                 "<loop name='rod' type='codesign:distance'><codesign:length "
+                 "value='2'/><predecessor link='ground'><origin xyz='1 0 0'/></predecessor>"
+                 "<successor link='arm'><origin xyz='0 0 -1'/></successor></loop>"));
   const Topology topology = derive_topology(robot);
   const PairConstants<double> c =
       pair_constants<double>(robot, topology, topology.pairs.at(1), Eigen::Vector3d::Zero(),

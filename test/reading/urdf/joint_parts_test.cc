@@ -13,7 +13,7 @@ namespace {
 const char kPlain[] = R"(mu_static="0.4" mu_dynamic="0.3" joint_length="0.1" pin_radius="0.02")";
 
 SourceText text_with(const std::string& attributes) {
-  return pendulum("\n<codesign:friction " + attributes + "/>");
+  return hinged_arm("\n<codesign:friction " + attributes + "/>");
 }
 FrictionDescription friction(const std::string& attributes) {
   return *read_urdf(text_with(attributes)).joints.at(0).friction;
@@ -152,12 +152,12 @@ TEST(FrictionReader, ATransitionVelocityThatLuGresModelDoesNotReadIsRefused) {
                     message = "transition_velocity has no effect: in the LuGre model";
   expect_error(text_with(lugre), {message, "allowed: beside static or viscous_exponent"});
   EXPECT_EQ(friction(lugre + "static=\"6\"").mu_static.nominal(), 6.0);
-  expect_error(pendulum("\n<codesign:actuator rotor_inertia=\"1\" " + lugre + "/>"), {message});
+  expect_error(hinged_arm("\n<codesign:actuator rotor_inertia=\"1\" " + lugre + "/>"), {message});
 }
 
 std::optional<GearDescription> gear(const std::string& attributes) {
   const std::string actuator = "\n<codesign:actuator rotor_inertia=\"1e-5\" " + attributes + "/>";
-  return read_urdf(pendulum(actuator)).joints.at(0).actuator->gear;
+  return read_urdf(hinged_arm(actuator)).joints.at(0).actuator->gear;
 }
 
 TEST(GearReader, EfficienciesAndFrictionOfTheMotor) {
@@ -215,7 +215,7 @@ TEST(GearReader, WithoutALimitTheTransitionFollowsTheMachineUnlessItSticks) {
 
 TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
   const auto actuator = [](const std::string& attributes) {
-    return *read_urdf(pendulum("<codesign:actuator rotor_inertia='1e-5' " + attributes + "/>"))
+    return *read_urdf(hinged_arm("<codesign:actuator rotor_inertia='1e-5' " + attributes + "/>"))
                 .joints[0]
                 .actuator;
   };
@@ -237,7 +237,7 @@ TEST(ElasticGearReader, StiffnessDampingAndBacklash) {
 RobotDescription read_geared(
     const std::string& transmissions,
     const std::string& actuator = "<codesign:actuator rotor_inertia=\"1e-5\"/>") {
-  return read_urdf(pendulum(actuator, transmissions));
+  return read_urdf(hinged_arm(actuator, transmissions));
 }
 
 std::string simple(const std::string& on_actuator, const std::string& on_joint = "",

@@ -30,7 +30,7 @@ TEST(ReadContext, EndsMustDiffer) {
 }
 
 JointDescription hinge(const std::string& content) {
-  return read_urdf(pendulum(content)).joints.at(0);
+  return read_urdf(hinged_arm(content)).joints.at(0);
 }
 
 SourceText typed(const std::string& type, const std::string& content = "") {
@@ -74,13 +74,13 @@ TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
   EXPECT_DOUBLE_EQ(joint.axis[1].at(at), 0.4);
   EXPECT_DOUBLE_EQ(joint.damping.at(at), 0.2);
   EXPECT_DOUBLE_EQ(joint.dry_friction.at(at), 0.3);
-  expect_error(pendulum("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis is zero"});
-  expect_error(pendulum("<axis/>"), {"the attribute xyz is missing", "(allowed: xyz=\"...\")"});
-  expect_error(pendulum("<dynamics/>"), {"neither damping nor friction"});
-  expect_warning(pendulum("<dynamics damping=\"-1\"/>"), "negative_value",
+  expect_error(hinged_arm("<axis xyz=\"0 0 0\"/>"), {"<axis>: the axis is zero"});
+  expect_error(hinged_arm("<axis/>"), {"the attribute xyz is missing", "(allowed: xyz=\"...\")"});
+  expect_error(hinged_arm("<dynamics/>"), {"neither damping nor friction"});
+  expect_warning(hinged_arm("<dynamics damping=\"-1\"/>"), "negative_value",
                  {"test.urdf:2:", "damping is negative and is taken as zero"});
   EXPECT_EQ(hinge("<dynamics damping=\"-1\"/>").damping.nominal(), 0.0);
-  expect_warning(pendulum("<origin/><origin/>"), "repeated_element", {"a second <origin>"});
+  expect_warning(hinged_arm("<origin/><origin/>"), "repeated_element", {"a second <origin>"});
 }
 
 TEST(JointReader, Limits) {
@@ -97,11 +97,11 @@ TEST(JointReader, Limits) {
       reversed, "limits_reversed",
       {"test.urdf:", "the lower limit is above the upper limit (1): the joint has no stops"});
   EXPECT_FALSE(has_stops(read_urdf(reversed).joints[0]));
-  expect_warning(pendulum(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"),
+  expect_warning(hinged_arm(R"(<limit lower="-1" upper="1" effort="1" velocity="1"/>)"),
                  "limit_ignored", {"turns without end", "-1 ... 1"});
-  expect_error(pendulum(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
+  expect_error(hinged_arm(R"(<limit velocity="1"/>)"), {"the attribute effort is missing"});
   expect_warning(
-      pendulum(R"(<limit effort="-1" velocity="1"/>)"), "negative_value",
+      hinged_arm(R"(<limit effort="-1" velocity="1"/>)"), "negative_value",
       {"<limit>: effort is negative and means, as in SDF, that there is no limit", "(value: -1)"});
 }
 
@@ -133,7 +133,7 @@ TEST(JointReader, Springs) {
   EXPECT_EQ(joint.spring->stiffness.nominal(), 5.0);
   EXPECT_EQ(joint.spring->damping.nominal(), 1.0);
   EXPECT_EQ(joint.spring->free_position.at(std::vector<double>{0.3}), 0.3);
-  expect_error(pendulum("<codesign:torsion_spring damping=\"1\"/>"),
+  expect_error(hinged_arm("<codesign:torsion_spring damping=\"1\"/>"),
                {"the attribute stiffness is missing"});
   expect_error(typed("floating", "<codesign:torsion_spring stiffness=\"1\"/>"),
                {"no single coordinate for a spring"});
@@ -146,13 +146,13 @@ TEST(JointReader, Actuators) {
   EXPECT_DOUBLE_EQ(joint.actuator->rotor_inertia.at(std::vector<double>{0.3}), 3e-5);
   EXPECT_EQ(hinge("<codesign:actuator rotor_inertia=\"1e-5\"/>").actuator->gear_ratio.nominal(),
             1.0);
-  expect_error(pendulum("<codesign:actuator gear_ratio=\"3\"/>"),
+  expect_error(hinged_arm("<codesign:actuator gear_ratio=\"3\"/>"),
                {"the attribute rotor_inertia is missing"});
-  expect_error(pendulum("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"),
+  expect_error(hinged_arm("<codesign:actuator gear_ratio=\"0\" rotor_inertia=\"1\"/>"),
                {"the gear ratio is zero"});
-  expect_error(pendulum("<codesign:actuator rotor_inertia=\"-1\"/>"),
+  expect_error(hinged_arm("<codesign:actuator rotor_inertia=\"-1\"/>"),
                {"rotor_inertia is negative"});
-  expect_error(pendulum("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"),
+  expect_error(hinged_arm("<codesign:actuator rotor_inertia=\"1\" gear_ration=\"2\"/>"),
                {"did you mean \"gear_ratio\""});
   expect_error(typed("floating", "<codesign:actuator rotor_inertia=\"1\"/>"),
                {"no single coordinate for a rotor"});
@@ -162,7 +162,7 @@ TEST(JointReader, Mimics) {
   const std::string second =
       link_with("tip") + joint_with("wrist", "continuous", "arm", "tip",
                                     R"(<mimic joint="hinge" multiplier="-2" offset="1"/>)");
-  const MimicDescription mimic = *read_urdf(pendulum("", second)).joints[1].mimic;
+  const MimicDescription mimic = *read_urdf(hinged_arm("", second)).joints[1].mimic;
   EXPECT_EQ(mimic.joint, "hinge");
   EXPECT_EQ(mimic.multiplier.nominal(), -2.0);
   EXPECT_EQ(mimic.offset.nominal(), 1.0);
@@ -187,7 +187,7 @@ TEST(JointReader, WhatReadersOfURDFPassOverIsNotJudged) {
 SourceText loop_text(
     const std::string& type, const std::string& content = "",
     const std::string& ends = "<predecessor link=\"ground\"/><successor link=\"arm\"/>") {
-  return pendulum("", "<loop name=\"l\" type=\"" + type + "\">" + ends + content + "</loop>");
+  return hinged_arm("", "<loop name=\"l\" type=\"" + type + "\">" + ends + content + "</loop>");
 }
 
 JointDescription loop(const std::string& type, const std::string& content = "") {
@@ -246,7 +246,7 @@ TEST(LoopReader, SaysWhatActsOutOfThePlane) {
   expect_error(text("codesign:universal", "zero"),
                {"a loop of type codesign:universal cannot be held in a plane only",
                 "fixed, revolute, continuous, prismatic"});
-  expect_error(pendulum("", "<joint name=\"a\" codesign:out_of_plane=\"zero\"/>"),
+  expect_error(hinged_arm("", "<joint name=\"a\" codesign:out_of_plane=\"zero\"/>"),
                {"codesign:out_of_plane"});
 }
 

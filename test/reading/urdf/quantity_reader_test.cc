@@ -10,7 +10,7 @@ namespace codesign {
 namespace {
 
 SourceText with_origin(const std::string& attributes) {
-  return pendulum("<origin " + attributes + "/>");
+  return hinged_arm("<origin " + attributes + "/>");
 }
 
 QuantityVector xyz_of(const std::string& attributes) {

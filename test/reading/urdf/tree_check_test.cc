@@ -35,20 +35,21 @@ TEST(TreeCheck, Mimics) {
     return link_with("tip") +
            joint_with("wrist", "continuous", "arm", "tip", "<mimic joint=\"" + joint + "\"/>");
   };
-  const SourceText unknown = pendulum("", second("hing"));
+  const SourceText unknown = hinged_arm("", second("hing"));
   expect_warning(unknown, "mimic_ignored",
                  {"<joint name=\"wrist\"> <mimic>: unknown joint to mimic, did you mean \"hinge\"?",
                   "moves freely"});
   EXPECT_FALSE(read_urdf(unknown).joints[1].mimic);
-  expect_warning(pendulum("", second("wrist")), "mimic_ignored", {"mimic each other in a ring"});
-  const RobotDescription ring = read_urdf(pendulum("<mimic joint=\"wrist\"/>", second("hinge")));
+  expect_warning(hinged_arm("", second("wrist")), "mimic_ignored", {"mimic each other in a ring"});
+  const RobotDescription ring = read_urdf(hinged_arm("<mimic joint=\"wrist\"/>", second("hinge")));
   EXPECT_EQ(ring.warnings.size(), 1U);
   EXPECT_TRUE(ring.joints[1].mimic) << "without the first the second makes sense";
 }
 
 TEST(TreeCheck, FrictionOfOrdinaryJointsNeedsItsDimensions) {
   const char* friction = "<codesign:friction mu_static=\"0.4\" mu_dynamic=\"0.3\"/>";
-  expect_error(pendulum(friction), {"<joint name=\"hinge\"> <codesign:friction>", "joint_length"});
+  expect_error(hinged_arm(friction),
+               {"<joint name=\"hinge\"> <codesign:friction>", "joint_length"});
   const std::string chain = kGround + link_with("massless", "") + link_with("arm");
   EXPECT_NO_THROW(
       read_urdf(robot_text(chain + joint_with("x", "continuous", "ground", "massless", friction) +

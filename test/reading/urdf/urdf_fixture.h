@@ -35,7 +35,7 @@ inline std::string joint_with(const std::string& name, const std::string& type,
 }
 
 /// ground - hinge - arm, on line 2; then `more` from line 3 on.
-inline SourceText pendulum(const std::string& joint_content, const std::string& more = "") {
+inline SourceText hinged_arm(const std::string& joint_content, const std::string& more = "") {
   return robot_text(kGround + link_with("arm") +
                     joint_with("hinge", "continuous", "ground", "arm", joint_content) + "\n" +
                     more);

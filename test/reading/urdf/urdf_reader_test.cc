@@ -13,10 +13,10 @@ namespace {
 const char kEnds[] = "<predecessor link=\"ground\"/><successor link=\"arm\"/>";
 
 SourceText coupling_text(const std::string& content) {
-  return pendulum("", "<coupling name=\"c\">" + content + "</coupling>");
+  return hinged_arm("", "<coupling name=\"c\">" + content + "</coupling>");
 }
 SourceText spring_text(const std::string& attributes, const std::string& content) {
-  return pendulum(
+  return hinged_arm(
       "", "<codesign:spring_damper " + attributes + ">" + content + "</codesign:spring_damper>");
 }
 

@@ -11,7 +11,9 @@
 namespace codesign {
 namespace {
 
-SourceText jointed() { return pendulum(R"(<origin xyz="0 0 0.2" codesign:xyz="0 0 ${length}"/>)"); }
+SourceText jointed() {
+  return hinged_arm(R"(<origin xyz="0 0 0.2" codesign:xyz="0 0 ${length}"/>)");
+}
 
 TEST(DesignWriter, ChangesDefaultsBoundsAndTwins) {
   XmlDocument document = load_annotated_urdf(jointed(), {});
@@ -101,7 +103,7 @@ TEST(UrdfWriter, OverlaysAreMergedIn) {
 }
 
 TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
-  const RobotDescription robot = read_urdf(tuned(pendulum(""), {0.7}));
+  const RobotDescription robot = read_urdf(tuned(hinged_arm(""), {0.7}));
   EXPECT_EQ(robot.parameters.at(0).value, 0.7);
   EXPECT_EQ(robot.parameters.at(0).upper, 0.7);
   EXPECT_EQ(robot.parameters.at(0).lower, 0.1);
@@ -109,7 +111,7 @@ TEST(UrdfWriter, BoundsThatAStudyWidenedFollow) {
 
 TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
   const auto friction = [](const std::string& content) {
-    return pendulum(
+    return hinged_arm(
         "<codesign:friction mu_static=\"0.2\" codesign:mu_static=\"${length}\" mu_dynamic=\"0.1\" "
         "joint_length=\"0.05\" "
         "joint_width=\"0.05\" pin_radius=\"0.01\" " +
@@ -136,13 +138,13 @@ TEST(UrdfWriter, AnotherFrictionLawReadsBackWithTheNumbersThatItUses) {
       const bool dwells = own.model == FrictionModel::kGonthier && law == FrictionModel::kGonthier;
       EXPECT_DOUBLE_EQ(read.dwell_time.nominal(), dwells ? 4.5 : 2.0) << text;
     }
-  EXPECT_EQ(write_tuned_urdf(pendulum(""), {}, {0.3}, FrictionModel::kLuGre),
-            write_tuned_urdf(pendulum(""), {}, {0.3}));
+  EXPECT_EQ(write_tuned_urdf(hinged_arm(""), {}, {0.3}, FrictionModel::kLuGre),
+            write_tuned_urdf(hinged_arm(""), {}, {0.3}));
 }
 
 TEST(UrdfWriter, AnotherFrictionLawInNewtonMetresReadsBack) {
   for (const char* more : {"", " static=\"3\"", " viscous=\"1\" viscous_exponent=\"0.8\""}) {
-    const SourceText urdf = pendulum(
+    const SourceText urdf = hinged_arm(
         std::string("<codesign:friction coulomb=\"2\" transition_velocity=\"0.2\"") + more + "/>");
     const std::string text = write_tuned_urdf(urdf, {}, {0.3}, FrictionModel::kLuGre);
     const FrictionDescription read = *read_urdf({"written.urdf", text}).joints[0].friction;
@@ -164,16 +166,16 @@ TEST(UrdfWriter, TheFrictionLawIsThatOfLoopsToo) {
 }
 
 TEST(UrdfWriter, Faults) {
-  EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {}), InputError);
-  EXPECT_THROW(write_tuned_urdf(pendulum(""), {}, {std::nan("")}), InputError);
-  const SourceText root = pendulum(
+  EXPECT_THROW(write_tuned_urdf(hinged_arm(""), {}, {}), InputError);
+  EXPECT_THROW(write_tuned_urdf(hinged_arm(""), {}, {std::nan("")}), InputError);
+  const SourceText root = hinged_arm(
       R"(<origin xyz="0 0 0.31622776601683794" codesign:xyz="0 0 ${sqrt(length - 0.1)}"/>)");
   EXPECT_NO_THROW(write_tuned_urdf(root, {}, {0.3}));
   EXPECT_THROW(write_tuned_urdf(root, {}, {0.05}), InputError) << "not finite there";
 }
 
 TEST(FilledUrdf, HasThePlainNumberBesideEachTwin) {
-  const SourceText without = pendulum(R"(<origin codesign:xyz="0 -${length} ${2*length}"/>
+  const SourceText without = hinged_arm(R"(<origin codesign:xyz="0 -${length} ${2*length}"/>
 <dynamics damping="7" codesign:damping="${length/2}"/>)");
   EXPECT_NE(error_of(without).find("lacks its plain attribute"), std::string::npos);
   const std::string text = write_filled_urdf(without, {}).text;
@@ -188,11 +190,11 @@ TEST(FilledUrdf, FillsOverlaysAndNamesFaultsByTheirLines) {
   const SourceText overlay = {
       "over.xml",
       R"(<robot name="test" xmlns:codesign="urn:x"><joint name="hinge"><origin codesign:xyz="0 0 ${length}"/></joint></robot>)"};
-  EXPECT_NE(write_filled_urdf(pendulum(""), {overlay}).text.find("xyz=\"0 0 0.2\""),
+  EXPECT_NE(write_filled_urdf(hinged_arm(""), {overlay}).text.find("xyz=\"0 0 0.2\""),
             std::string::npos);
   const auto fault_of_filled = [](const std::string& joint) -> std::string {
     try {
-      write_filled_urdf(pendulum(joint, "<link name=\"arm\"/>"), {});
+      write_filled_urdf(hinged_arm(joint, "<link name=\"arm\"/>"), {});
     } catch (const InputError& error) {
       return error.what();
     }

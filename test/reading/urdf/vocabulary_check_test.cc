@@ -8,9 +8,9 @@ namespace {
 
 TEST(VocabularyCheck, AllOfAFileAreToldInTheOrderOfItsLines) {
   const RobotDescription robot =
-      read_urdf(pendulum("<dynamics damping=\"1\" K=\"2\"/>",
-                         "<link name=\"tip\" colour=\"red\"/>\n" +
-                             joint_with("j", "fixed", "arm", "tip", "<mimic joint=\"hinge\"/>")));
+      read_urdf(hinged_arm("<dynamics damping=\"1\" K=\"2\"/>",
+                           "<link name=\"tip\" colour=\"red\"/>\n" +
+                               joint_with("j", "fixed", "arm", "tip", "<mimic joint=\"hinge\"/>")));
   ASSERT_EQ(robot.warnings.size(), 3U);
   for (int k = 0; k < 3; ++k)
     EXPECT_EQ(robot.warnings[static_cast<std::size_t>(k)].where.line, k + 2);
@@ -25,7 +25,7 @@ TEST(VocabularyCheck, TheSameNameInTheSameKindOfElementIsToldOnceWithACount) {
   for (const char* name : {"a", "b", "c"})
     links += "<link name=\"" + std::string(name) + "\">" + inertia + "</link>\n" +
              joint_with("j" + std::string(name), "fixed", "arm", name, "") + "\n";
-  const RobotDescription robot = read_urdf(pendulum(
+  const RobotDescription robot = read_urdf(hinged_arm(
       "", links + "<link name=\"d\" iyx=\"2\"/>" + joint_with("jd", "fixed", "arm", "d", "")));
   std::vector<std::string> messages;
   for (const Warning& warning : robot.warnings)
@@ -38,18 +38,20 @@ TEST(VocabularyCheck, TheSameNameInTheSameKindOfElementIsToldOnceWithACount) {
 }
 
 TEST(VocabularyCheck, RepeatedElements) {
-  expect_warning(pendulum("<axis xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/>"), "repeated_element",
+  expect_warning(hinged_arm("<axis xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/>"), "repeated_element",
                  {"a second <axis>; the first one is used"});
-  EXPECT_EQ(
-      read_urdf(pendulum("<axis xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/>")).joints[0].axis[2].nominal(),
-      1.0);
+  EXPECT_EQ(read_urdf(hinged_arm("<axis xyz=\"0 0 1\"/><axis xyz=\"1 0 0\"/>"))
+                .joints[0]
+                .axis[2]
+                .nominal(),
+            1.0);
   const std::string friction =
       "<codesign:friction mu_static=\"1\" mu_dynamic=\"1\" joint_length=\"1\" pin_radius=\"1\"/>";
-  expect_error(pendulum(friction + friction), {"a second <codesign:friction>"});
-  expect_error(pendulum("",
-                        "<loop name=\"l\" type=\"revolute\"><predecessor "
-                        "link=\"arm\"/><predecessor link=\"arm\"/>"
-                        "<successor link=\"ground\"/></loop>"),
+  expect_error(hinged_arm(friction + friction), {"a second <codesign:friction>"});
+  expect_error(hinged_arm("",
+                          "<loop name=\"l\" type=\"revolute\"><predecessor "
+                          "link=\"arm\"/><predecessor link=\"arm\"/>"
+                          "<successor link=\"ground\"/></loop>"),
                {"a second <predecessor>"});
 }
 
