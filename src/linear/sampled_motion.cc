@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linear/period_map.h"
 #include "math/arrays.h"
@@ -145,6 +146,27 @@ StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int 
           map.by_opened(),
           map.output(),
           map.direct()};
+}
+
+std::vector<PeriodPiece> period_pieces(
+    const System& system, Eigen::Index motions, Eigen::Index states, const SamplePattern& pattern,
+    const std::function<Eigen::MatrixXcd(const std::vector<ControlEvent>&)>& jump) {
+  constexpr double kAlike = 1e-14;  // of the period: rounding of the same time
+  const Eigen::MatrixXcd unit = Eigen::MatrixXcd::Identity(states, states + 1);
+  std::vector<PeriodPiece> pieces;
+  for (std::size_t k = 0; k < pattern.instants.size(); ++k) {
+    const bool is_last = k + 1 == pattern.instants.size();
+    PeriodPiece piece{
+        unit, (is_last ? pattern.period : pattern.instants[k + 1].time) - pattern.instants[k].time};
+    piece.jump.bottomRows(states - motions) = jump(pattern.instants[k].events);
+    for (const PeriodPiece& other : pieces)
+      if (std::abs(other.time - piece.time) <= kAlike * pattern.period) piece.time = other.time;
+    pieces.push_back(std::move(piece));
+  }
+  PeriodPiece end{unit, 0.0};
+  renumber_queues(system, pattern, motions, &end.jump);
+  if (end.jump != unit) pieces.push_back(std::move(end));
+  return pieces;
 }
 
 }  // namespace codesign

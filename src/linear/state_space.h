@@ -17,4 +17,20 @@ struct StateSpace {
   Eigen::MatrixXd A, B, C, D;
 };
 
+/// What happens to a motion at an instant of a period, and the time for which it flows then.
+struct PeriodPiece {
+  Eigen::MatrixXcd jump;  ///< x behind the instant by [x | w]; w: one input
+  double time = 0.0;      ///< [s]
+};
+
+/// Matrices of a linearization whose imaginary parts are derivatives along one direction of the
+/// design, a complex step: divided by kStep.
+struct ComplexSpace {
+  static constexpr double kStep = 1e-30;
+  Eigen::MatrixXcd A, B, C, D;
+  /// the period of a loop of one input that flows between instants, which has A, B, C, D there;
+  /// empty: there is none
+  std::vector<PeriodPiece> pieces{};
+};
+
 }  // namespace codesign
