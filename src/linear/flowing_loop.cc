@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include "linear/flowing_norm.h"
@@ -53,9 +54,9 @@ double FlowingLoop::frequency_of(Complex factor, const EigenTriple& pole) const 
 }
 
 /// The largest norm, where it exceeds the response to sinusoids; else the peaks of that.
-std::vector<AtFrequency> FlowingLoop::peaks_of(bool complementary) const {
+std::vector<AtFrequency> FlowingLoop::peaks_of(bool complementary, const Part& part) const {
   const double shift = shift_of(complementary);
-  const auto response = [&](double w) { return std::abs(shift + part_at(closed_, w)); };
+  const auto response = [&](double w) { return std::abs(shift + part(w)); };
   const FlowingNorm norm(space_, shift);
   std::vector<AtFrequency> found = peaks(grid_, response);
   found.push_back({norm.of_fast_signals(), grid_.back()});
@@ -67,24 +68,29 @@ std::vector<AtFrequency> FlowingLoop::peaks_of(bool complementary) const {
   double most = -1.0;
   for (const double angle : {largest->angle, -largest->angle})
     for (const double frequency : frequencies_near(closed_.A, angle, period_)) {
-      const double part = response(frequency);
-      if (part <= most * (1.0 + kSameLevel)) continue;
-      most = part;
+      const double size = response(frequency);
+      if (size <= most * (1.0 + kSameLevel)) continue;
+      most = size;
       peak.frequency = std::abs(frequency);
     }
   return {peak};
 }
 
 void FlowingLoop::find_peaks(LoopMargins* margins) const {
+  std::map<double, Complex> known;
+  const Part part = [&](double w) {
+    const auto found = known.find(w);
+    return found != known.end() ? found->second : known[w] = part_at(closed_, w);
+  };
   const bool is_bounded = std::all_of(closed_.G.begin(), closed_.G.end(),
                                       [](const MatrixXcd& jump) { return jump.isZero(0.0); });
   if (is_bounded) {
-    margins->all.sensitivities = peaks_of(false);
-    margins->all.complementaries = peaks_of(true);
+    margins->all.sensitivities = peaks_of(false, part);
+    margins->all.complementaries = peaks_of(true, part);
     margins->sensitivity = margins->all.sensitivities.front();
     margins->complementary = margins->all.complementaries.front();
   }
-  const auto complementary = [&](double w) { return std::abs(part_at(closed_, w)); };
+  const auto complementary = [&](double w) { return std::abs(part(w)); };
   margins->rest = rest_of(complementary, grid_);
   margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
 }

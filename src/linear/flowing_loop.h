@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "description/linear_measure.h"
@@ -37,7 +38,9 @@ class FlowingLoop : public FactoredLoop {
   double frequency_of(std::complex<double> factor, const EigenTriple& pole) const override;
 
  private:
-  std::vector<AtFrequency> peaks_of(bool complementary) const;
+  /// The part of the closed loop's output at a frequency.
+  using Part = std::function<std::complex<double>(double frequency)>;
+  std::vector<AtFrequency> peaks_of(bool complementary, const Part& part) const;
   double norm_derivative(const AtFrequency& margin, bool complementary) const;
   double bandwidth_derivative(double frequency, double rest) const;
   void find_peaks(LoopMargins* margins) const;

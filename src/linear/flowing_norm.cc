@@ -60,7 +60,7 @@ Scattering scattered(const MatrixXcd& flow, double time) {
 
 ComplexSpace without_changes(ComplexSpace space) {
   for (MatrixXcd* matrix : {&space.A, &space.B, &space.C, &space.D}) matrix->imag().setZero();
-  for (PeriodPiece& piece : space.pieces) piece.jump.imag().setZero();
+  for (PeriodPiece& piece : space.pieces.different) piece.jump.imag().setZero();
   return space;
 }
 
@@ -92,14 +92,15 @@ FlowingNorm::Pencil FlowingNorm::pencil(const ComplexSpace& space, Complex level
       -level * per * product(space.C.transpose(), space.C), -own.transpose();
   std::map<double, Scattering> flows;
   const MatrixXcd unit = MatrixXcd::Identity(n, n), zero = MatrixXcd::Zero(n, n);
-  Scattering all{unit, zero, zero, unit, true};
-  for (const PeriodPiece& piece : space.pieces) {
+  std::vector<Scattering> pieces;
+  for (const PeriodPiece& piece : space.pieces.different) {
     const MatrixXcd J = piece.jump.leftCols(n);
-    all = behind(all, {J, zero, zero, J.transpose(), true});
+    pieces.push_back({J, zero, zero, J.transpose(), true});
     if (!(piece.time > 0.0)) continue;
     if (flows.count(piece.time) == 0) flows[piece.time] = scattered(flow, piece.time);
-    all = behind(all, flows[piece.time]);
+    pieces.back() = behind(pieces.back(), flows[piece.time]);
   }
+  Scattering all = in_order(std::move(pieces), space.pieces.order, behind);
   Pencil result{MatrixXcd(2 * n, 2 * n), MatrixXcd(2 * n, 2 * n), all.is_below};
   result.M << all.xx, zero, all.qx, -unit;
   result.N << unit, -all.xq, zero, -all.qq;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <utility>
 
 #include "linear/frequency_search.h"
 #include "math/linear_systems.h"
@@ -43,25 +44,25 @@ MovedMatrix flown(const MovedMatrix& flow, double time) {
   return {power.topLeftCorner(n, n), power.topRightCorner(n, n)};
 }
 
-MovedMatrix over_period(const MovedMatrix& flow, const std::vector<MovedMatrix>& jumps,
-                        const std::vector<double>& times) {
+MovedMatrix over_period(const MovedMatrix& flow, std::vector<MovedMatrix> jumps,
+                        const std::vector<double>& times, const std::vector<int>& order) {
   std::map<double, MovedMatrix> flows;
-  const Index n = flow.value.rows();
-  MovedMatrix all{identity(n)};
-  if (flow.change.rows() > 0) all.change = MatrixXcd::Zero(n, n);
   for (std::size_t k = 0; k < jumps.size(); ++k) {
-    all = after(jumps[k], all);
     if (!(times[k] > 0.0)) continue;
     if (flows.count(times[k]) == 0) flows[times[k]] = flown(flow, times[k]);
-    all = after(flows[times[k]], all);
+    jumps[k] = after(flows[times[k]], jumps[k]);
   }
-  return all;
+  return in_order(std::move(jumps), order, [](const MovedMatrix& first, const MovedMatrix& next) {
+    return after(next, first);
+  });
 }
 
 template <class Part>
 FlowingSpace part_of_space(const ComplexSpace& space, const Part& part) {
-  FlowingSpace result{part(space.A), part(space.B), part(space.C), part(space.D)(0, 0), {}, {}, {}};
-  for (const PeriodPiece& piece : space.pieces) {
+  FlowingSpace result{
+      part(space.A),     part(space.B), part(space.C), part(space.D)(0, 0), {}, {}, {},
+      space.pieces.order};
+  for (const PeriodPiece& piece : space.pieces.different) {
     const MatrixXcd jump = part(piece.jump);
     result.J.push_back(jump.leftCols(space.A.rows()));
     result.G.push_back(jump.rightCols(1));
@@ -83,12 +84,16 @@ FlowingSpace changes_of(const ComplexSpace& space) {
   });
 }
 
-double FlowingSpace::period() const { return std::accumulate(times.begin(), times.end(), 0.0); }
+double FlowingSpace::period() const {
+  return std::accumulate(order.begin(), order.end(), 0.0, [this](double sum, int k) {
+    return sum + times[static_cast<std::size_t>(k)];
+  });
+}
 
 // w = (u - C x)/(1 + D).
 FlowingSpace FlowingSpace::opened() const {
   const Complex per = 1.0 / (1.0 + D);
-  FlowingSpace open{A - per * product(B, C), per * B, per * C, per * D, {}, {}, times};
+  FlowingSpace open{A - per * product(B, C), per * B, per * C, per * D, {}, {}, times, order};
   for (std::size_t k = 0; k < J.size(); ++k) {
     open.J.emplace_back(J[k] - per * product(G[k], C));
     open.G.emplace_back(per * G[k]);
@@ -113,8 +118,8 @@ MovedMatrix closed_period(const FlowingSpace& space, Complex K, const Change& ch
   for (std::size_t k = 0; k < space.J.size(); ++k)
     jumps.push_back(
         {space.J[k] + K * product(space.G[k], space.C), change(static_cast<int>(k), space.G[k])});
-  return over_period({space.A + K * product(space.B, space.C), change(-1, space.B)}, jumps,
-                     space.times);
+  return over_period({space.A + K * product(space.B, space.C), change(-1, space.B)},
+                     std::move(jumps), space.times, space.order);
 }
 
 }  // namespace
@@ -185,7 +190,7 @@ MovedMatrix turning_part(const FlowingSpace& space, double frequency, const Matr
   }
   const MovedMatrix all = over_period(
       {turning(space.A - kJ * frequency * identity(n), space.B, space.C, space.D), flow_change},
-      jumps, space.times);
+      std::move(jumps), space.times, space.order);
   const MatrixXcd per = identity(n) - all.value.topLeftCorner(n, n);
   const MatrixXcd x = complex_solution(per, all.value.block(0, n, n, 1));
   const double period = space.period();
@@ -244,7 +249,7 @@ double largest_sinusoid(const FlowingSpace& space, Complex factor, const Eigen::
   for (const double frequency : frequencies_near(closed.A, angle, space.period())) {
     const MatrixXcd flow =
         turning(closed.A - kJ * frequency * identity(n), closed.B, closed.C, 0.0);
-    const MovedMatrix all = over_period({flow}, jumps, space.times);
+    const MovedMatrix all = over_period({flow}, jumps, space.times, space.order);
     const MatrixXcd row = all.value.block(n + 1, 0, 1, n);
     const double part = std::abs(product(row, MatrixXcd(x))(0, 0));
     if (part <= largest * (1.0 + 1e-9)) continue;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "linear/state_space.h"
@@ -10,17 +12,39 @@
 namespace codesign {
 
 /// A loop of one input that flows between instants, theory (69b): x' = A x + B w, y = C x + D w,
-/// and at instant k x+ = J[k] x + G[k] w.
+/// and at instants of kind k x+ = J[k] x + G[k] w.
 struct FlowingSpace {
   Eigen::MatrixXcd A, B, C;
   std::complex<double> D;
   std::vector<Eigen::MatrixXcd> J, G;
   std::vector<double> times;  ///< [s] from each instant to the next one
+  std::vector<int> order;     ///< which k follow each other in a period
 
   double period() const;  ///< [s]
   /// From u to y, where w = u - y.
   FlowingSpace opened() const;
 };
+/// Combines elements in their order; a pair that occurs again is combined once.
+/// @param then (element, what follows it) -> both.
+template <class Element, class Then>
+Element in_order(std::vector<Element> elements, std::vector<int> order, const Then& then) {
+  while (order.size() > 1) {
+    std::map<std::pair<int, int>, int> known;
+    std::vector<int> shorter;
+    for (std::size_t k = 0; k + 1 < order.size(); k += 2) {
+      const auto pair =
+          known.try_emplace({order[k], order[k + 1]}, static_cast<int>(elements.size()));
+      if (pair.second)
+        elements.push_back(then(elements[static_cast<std::size_t>(order[k])],
+                                elements[static_cast<std::size_t>(order[k + 1])]));
+      shorter.push_back(pair.first->second);
+    }
+    if (order.size() % 2 == 1) shorter.push_back(order.back());
+    order = std::move(shorter);
+  }
+  return elements[static_cast<std::size_t>(order.front())];
+}
+
 /// The loop, and its derivatives along the direction of the space.
 FlowingSpace values_of(const ComplexSpace& space);
 FlowingSpace changes_of(const ComplexSpace& space);

@@ -232,7 +232,7 @@ ComplexSpace LinearDerivatives::loop(std::size_t controller, std::size_t directi
 }
 
 /// The events and flows of a period. @param input the state that is the input; -1: none.
-std::vector<PeriodPiece> LinearDerivatives::pieces(Eigen::Index input) {
+PeriodPieces LinearDerivatives::pieces(Eigen::Index input) {
   const Eigen::Index states = space_->flow.A.rows();
   return period_pieces(system_, motion_.motions(), states, pattern_,
                        [&](const std::vector<ControlEvent>& events) {

@@ -56,7 +56,7 @@ class LinearDerivatives {
   void keep_states();
   Eigen::MatrixXcd kept_rows(const Eigen::MatrixXcd& jump) const;
   Eigen::Index disturbance_of(std::size_t controller) const;
-  std::vector<PeriodPiece> pieces(Eigen::Index input);
+  PeriodPieces pieces(Eigen::Index input);
   PeriodMap<std::complex<double>> period_map(int opened);
   LinearStudy study_of(const LinearCase& of);
 

@@ -148,24 +148,39 @@ StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int 
           map.direct()};
 }
 
-std::vector<PeriodPiece> period_pieces(
+namespace {
+
+/// Adds a piece, or a place of one alike.
+void add_piece(PeriodPiece piece, double alike, PeriodPieces* pieces) {
+  for (const PeriodPiece& other : pieces->different)
+    if (std::abs(other.time - piece.time) <= alike) piece.time = other.time;
+  const auto found = std::find_if(pieces->different.begin(), pieces->different.end(),
+                                  [&piece](const PeriodPiece& other) {
+                                    return other.time == piece.time && other.jump == piece.jump;
+                                  });
+  pieces->order.push_back(static_cast<int>(found - pieces->different.begin()));
+  if (found == pieces->different.end()) pieces->different.push_back(std::move(piece));
+}
+
+}  // namespace
+
+PeriodPieces period_pieces(
     const System& system, Eigen::Index motions, Eigen::Index states, const SamplePattern& pattern,
     const std::function<Eigen::MatrixXcd(const std::vector<ControlEvent>&)>& jump) {
-  constexpr double kAlike = 1e-14;  // of the period: rounding of the same time
+  constexpr double kRounding = 1e-14;  // of the period
+  const double alike = kRounding * pattern.period;
   const Eigen::MatrixXcd unit = Eigen::MatrixXcd::Identity(states, states + 1);
-  std::vector<PeriodPiece> pieces;
+  PeriodPieces pieces;
   for (std::size_t k = 0; k < pattern.instants.size(); ++k) {
     const bool is_last = k + 1 == pattern.instants.size();
     PeriodPiece piece{
         unit, (is_last ? pattern.period : pattern.instants[k + 1].time) - pattern.instants[k].time};
     piece.jump.bottomRows(states - motions) = jump(pattern.instants[k].events);
-    for (const PeriodPiece& other : pieces)
-      if (std::abs(other.time - piece.time) <= kAlike * pattern.period) piece.time = other.time;
-    pieces.push_back(std::move(piece));
+    add_piece(std::move(piece), alike, &pieces);
   }
   PeriodPiece end{unit, 0.0};
   renumber_queues(system, pattern, motions, &end.jump);
-  if (end.jump != unit) pieces.push_back(std::move(end));
+  if (end.jump != unit) add_piece(std::move(end), alike, &pieces);
   return pieces;
 }
 

@@ -43,7 +43,7 @@ StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int 
 /// The pieces of a period for a loop that is opened where it flows.
 /// @param states number of states x. @param jump events at one instant -> the states s behind them
 /// by [x | w].
-std::vector<PeriodPiece> period_pieces(
+PeriodPieces period_pieces(
     const System& system, Eigen::Index motions, Eigen::Index states, const SamplePattern& pattern,
     const std::function<Eigen::MatrixXcd(const std::vector<ControlEvent>&)>& jump);
 

@@ -23,6 +23,12 @@ struct PeriodPiece {
   double time = 0.0;      ///< [s]
 };
 
+/// The course of a period: which of some pieces follow each other.
+struct PeriodPieces {
+  std::vector<PeriodPiece> different;
+  std::vector<int> order;  ///< places in `different`
+};
+
 /// Matrices of a linearization whose imaginary parts are derivatives along one direction of the
 /// design, a complex step: divided by kStep.
 struct ComplexSpace {
@@ -30,7 +36,7 @@ struct ComplexSpace {
   Eigen::MatrixXcd A, B, C, D;
   /// the period of a loop of one input that flows between instants, which has A, B, C, D there;
   /// empty: there is none
-  std::vector<PeriodPiece> pieces{};
+  PeriodPieces pieces{};
 };
 
 }  // namespace codesign

@@ -28,7 +28,7 @@ inline ComplexSpace damped_cart(std::complex<double> step = 0.0) {
   sample(4, 1) = -damping;
   apply.row(3).setZero();
   apply(3, 4) = 1.0;
-  return {A, B, C, Matrix::Zero(1, 1), {{sample, 0.05}, {apply, 0.05}}};
+  return {A, B, C, Matrix::Zero(1, 1), {{{sample, 0.05}, {apply, 0.05}}, {0, 1}}};
 }
 
 /// The same with its derivative as imaginary parts.

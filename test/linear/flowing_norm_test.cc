@@ -23,7 +23,8 @@ TEST(FlowingNorm, OfAResonance) {
   B << 0.0, 1.0;
   C << 1.0, 0.0;
   const MatrixXcd nothing = MatrixXcd::Identity(2, 3);
-  const FlowingNorm norm({A, B, C, MatrixXcd::Zero(1, 1), {{nothing, 0.3}, {nothing, 0.4}}}, 0.0);
+  const FlowingNorm norm(
+      {A, B, C, MatrixXcd::Zero(1, 1), {{{nothing, 0.3}, {nothing, 0.4}}, {0, 1}}}, 0.0);
   const auto peak = norm.above({1.0, 0.0});
   ASSERT_TRUE(peak);
   EXPECT_NEAR(peak->value, 0.5 / (zeta * std::sqrt(1.0 - zeta * zeta)), 1e-12);
@@ -35,7 +36,7 @@ TEST(FlowingNorm, OfAResonance) {
 // whatever the angle.
 TEST(FlowingNorm, OfAnIntegralThatIsReset) {
   const MatrixXcd zero = MatrixXcd::Zero(1, 1), one = MatrixXcd::Ones(1, 1);
-  const ComplexSpace reset{zero, one, one, zero, {{MatrixXcd::Zero(1, 2), 0.8}}};
+  const ComplexSpace reset{zero, one, one, zero, {{{MatrixXcd::Zero(1, 2), 0.8}}, {0}}};
   const auto peak = FlowingNorm(reset, 0.0).above({0.1, 0.0});
   ASSERT_TRUE(peak);
   EXPECT_NEAR(peak->value, 1.6 / std::acos(-1.0), 1e-12);
@@ -52,7 +53,7 @@ double lifted(const ComplexSpace& space, double shift, double angle, Eigen::Inde
   const MatrixXcd step = matrix_exponential(MatrixXcd(flow * time));
   MatrixXcd x = MatrixXcd::Identity(n, n + all), y = MatrixXcd::Zero(all, n + all);
   for (Eigen::Index k = 0; k < all; ++k) {
-    if (k % count == 0) x = (space.pieces[k == 0 ? 0 : 1].jump.leftCols(n) * x).eval();
+    if (k % count == 0) x = (space.pieces.different[k == 0 ? 0 : 1].jump.leftCols(n) * x).eval();
     y.row(k) = step.block(n + 1, 0, 1, n) * x / time;
     y(k, n + k) += step(n + 1, n) / time + shift;
     x = (step.topLeftCorner(n, n) * x).eval();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "linear/flowing_cases.h"
 #include "math/linear_systems.h"
@@ -23,7 +24,7 @@ FlowingSpace held_state() {
   C(0, 0) = 3.0;
   J.row(1) << -1.0, 0.0;
   G(1, 0) = 0.2;
-  return {A, B, C, 0.5, {J}, {G}, {0.4}};
+  return {A, B, C, 0.5, {J}, {G}, {0.4}, {0}};
 }
 
 // With w = K 3 x, K = (k - 1)/(1 - 0.5 (k - 1)): x' = a x + h, h = g x.
@@ -36,6 +37,19 @@ TEST(FlowingPeriod, MapByClosedForm) {
     EXPECT_LT(std::abs(map(1, 0) - g), 1e-14);
     EXPECT_EQ(map(0, 1), 0.0);
   }
+}
+
+// Words in place of matrices: the order stays, and what repeats is combined once.
+TEST(FlowingPeriod, CombinesInOrder) {
+  int combined = 0;
+  const auto then = [&combined](const std::string& first, const std::string& next) {
+    ++combined;
+    return first + next;
+  };
+  const std::vector<std::string> letters{"a", "b", "c"};
+  EXPECT_EQ(in_order(letters, {2}, then), "c");
+  EXPECT_EQ(in_order(letters, {0, 1, 0, 1, 0, 1, 2}, then), "abababc");
+  EXPECT_EQ(combined, 1 + 2 + 1);
 }
 
 TEST(FlowingPeriod, MapMovesWithFactorAndDesign) {
@@ -70,7 +84,7 @@ TEST(FlowingPeriod, PartOfALoopWithoutJumpsIsItsTransferFunction) {
 // A hold alone: y = h of w sampled each T is e^{-jwT/2} sin(wT/2)/(wT/2).
 TEST(FlowingPeriod, PartOfAHold) {
   const Eigen::MatrixXcd zero = Eigen::MatrixXcd::Zero(1, 1), one = Eigen::MatrixXcd::Ones(1, 1);
-  const FlowingSpace hold{zero, zero, one, 0.0, {zero}, {one}, {0.2}};
+  const FlowingSpace hold{zero, zero, one, 0.0, {zero}, {one}, {0.2}, {0}};
   for (const double w : {0.5, 10.0, 40.0}) {
     const Complex expected = std::polar(std::sin(0.1 * w) / (0.1 * w), -0.1 * w);
     EXPECT_LT(std::abs(part_at(hold, w) - expected), 1e-14);
@@ -95,7 +109,7 @@ TEST(FlowingPeriod, TheSinusoidOfAMotion) {
   A(0, 1) = C(0, 0) = 1.0;
   A(1, 0) = -900.0;
   const Eigen::MatrixXcd none = Eigen::MatrixXcd::Zero(2, 1);
-  const FlowingSpace space{A, none, C, 0.0, {Eigen::MatrixXcd::Identity(2, 2)}, {none}, {0.5}};
+  const FlowingSpace space{A, none, C, 0.0, {Eigen::MatrixXcd::Identity(2, 2)}, {none}, {0.5}, {0}};
   Eigen::VectorXcd motion(2);
   motion << 1.0, Complex(0.0, -30.0);
   EXPECT_NEAR(largest_sinusoid(space, 1.0, motion, std::remainder(-15.0, 2.0 * std::acos(-1.0))),

@@ -102,7 +102,7 @@ TEST(FindImpossible, NamesAnElasticGearWithoutRatio) {
   Mechanism mechanism(
       link_with("arm") +
       joint_with("hinge", "continuous", "ground", "arm",
-                 "<axis xyz='0 1 0'/><codesign:actuator gear_ratio='1' "
+                 "<axis xyz='0 1 0'/><codesign:actuator gear_ratio='0.2' "
                  "codesign:gear_ratio='${length}' rotor_inertia='0.1' stiffness='100'/>"));
   const auto verdict = [&](double ratio) {
     return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(ratio));
