@@ -35,8 +35,8 @@ FlowingLoop::FlowingLoop(ComplexSpace closed)
     space.A = A.real();
     return poles_of(space);
   };
-  std::vector<Pole> closed_poles = poles_with(closed_by(1.0), period_),
-                    open_poles = poles_with(closed_by(0.0), period_);
+  std::vector<Pole> closed_poles = poles_with(map_with(closed_, 1.0), period_),
+                    open_poles = poles_with(map_with(closed_, 0.0), period_);
   is_stable_ = std::none_of(closed_poles.begin(), closed_poles.end(),
                             [](const Pole& pole) { return pole.growth() > pole.uncertainty; });
   // Poles of a period tell frequencies up to half of its rate, those of the flow all of them.
