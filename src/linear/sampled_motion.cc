@@ -88,7 +88,7 @@ SamplePattern sample_pattern(const MotionStudy& study) {
     if (!slowest || times.back() > slowest->realization.sample_time) slowest = &controller;
   }
   pattern.samples.assign(study.controllers.size(), 0);
-  if (times.empty()) return pattern;
+  if (!slowest) return pattern;
   const double longest = slowest->realization.sample_time;
   const int count = common_samples(times, longest);
   if (count == 0)
