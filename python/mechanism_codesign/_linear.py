@@ -73,7 +73,7 @@ class Linearization:
     verdict: the same with the pole that decides and what is counted.
     modes: the least stable one first, each with growth [1/s], frequency [Hz], damping_ratio, rates of the joints and, sampled, radius.
     measured: by controller the signal that it compares with its set-point.
-    loops: by controller the margins that there are, each {"value", "frequency"} [rad, s, rad/s], or {"why_not"}.
+    loops: by controller the margins that there are, each {"value", "frequency"} [rad, s, rad/s].
     """
 
     def __init__(self, record: Dict[str, Any]):

@@ -86,9 +86,9 @@ def diagrams(controller, loop, is_stable):
 
 
 def open_loops(result):
-    """[(controller, why there are no margins, samples in the common period, rows of margins, diagrams)]"""
+    """[(controller, samples in the common period, rows of margins, diagrams)]"""
     is_stable = result["stability"] != "unstable"
-    return [(controller, loop.get("why_not", ""), loop.get("samples", 1), [] if "why_not" in loop else margin_rows(loop, is_stable), diagrams(controller, loop, is_stable))
+    return [(controller, loop.get("samples", 1), margin_rows(loop, is_stable), diagrams(controller, loop, is_stable))
             for controller, loop in result["loops"].items()]
 
 

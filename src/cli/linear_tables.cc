@@ -56,16 +56,11 @@ void print_stability(const LinearModel& model, std::ostream& out) {
 void print_margins(const LinearModel& model, std::ostream& out) {
   Table table;
   table.add({"loop", "", "at [Hz]"});
-  bool is_empty = true;
   for (const ControllerLoop& loop : model.loops) {
-    if (!loop.why_not.empty()) {
-      out << loop.controller << ": no margins, " << loop.why_not << '\n';
-      continue;
-    }
-    is_empty = false;
-    if (loop.samples > 1)
-      out << loop.controller << ": margins by the poles over " << loop.samples
-          << " samples, the common period of all controllers\n";
+    if (loop.samples != 1)
+      out << loop.controller << ": margins by the poles over "
+          << (loop.samples > 1 ? std::to_string(loop.samples) + " samples, " : "")
+          << "the common period of all controllers\n";
     visit_margins(loop.margins, [&](const std::string& name,
                                     const std::optional<AtFrequency>& margin, const char* unit) {
       std::string title = name;
@@ -76,7 +71,7 @@ void print_margins(const LinearModel& model, std::ostream& out) {
                  margin ? readable(margin->frequency / kTurn, kDigits) : "-"});
     });
   }
-  if (!is_empty) table.print(out);
+  if (!model.loops.empty()) table.print(out);
 }
 
 }  // namespace codesign::cli

@@ -45,16 +45,12 @@ Json loops_json(const LinearModel& model) {
   Json loops = Json::object();
   for (const ControllerLoop& loop : model.loops) {
     Json entry = Json::object();
-    if (loop.why_not.empty()) {
-      visit_margins(loop.margins,
-                    [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
-                      if (margin) entry[name] = record_json(*margin);
-                    });
-      if (loop.samples > 1) entry["samples"] = loop.samples;
-      entry["response"] = response_of(loop);
-    } else {
-      entry["why_not"] = loop.why_not;
-    }
+    visit_margins(loop.margins,
+                  [&](const char* name, const std::optional<AtFrequency>& margin, const char*) {
+                    if (margin) entry[name] = record_json(*margin);
+                  });
+    if (loop.samples != 1) entry["samples"] = loop.samples;
+    entry["response"] = response_of(loop);
     loops[loop.controller] = std::move(entry);
   }
   return loops;

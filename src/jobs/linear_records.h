@@ -16,7 +16,7 @@ void add_matrices(const StateSpace& system, Json* object);
 /// By controller that compares a signal with a setpoint: the signal.
 Json measured_json(const std::vector<ControllerDescription>& controllers);
 /// By controller: the margins of visit_margins() that there are, with their frequencies, and
-/// L at all of them, or `why_not`.
+/// L at all of them.
 Json loops_json(const LinearModel& model);
 
 }  // namespace codesign

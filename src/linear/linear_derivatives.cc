@@ -66,6 +66,7 @@ Status LinearDerivatives::take(const std::vector<double>& design, const State<do
   motion_.set_design(study_.parameters_at(design));
   if (Status status = motion_.linearize_at_rest(state, integrals); !status.ok()) return status;
   changes_ = rest_.at(motion_.state(), design);
+  keep_states();
   return {};
 }
 
@@ -127,17 +128,33 @@ void LinearDerivatives::step(std::size_t direction) {
   set_flow(A, z);
 }
 
-/// The states without the held outputs that are disturbances: currents of motors follow them.
-std::vector<Eigen::Index> LinearDerivatives::kept_states() const {
-  std::vector<Eigen::Index> kept;
+/// Sets the states without the held outputs that are disturbances: currents of motors follow them.
+void LinearDerivatives::keep_states() {
+  kept_.clear();
   const Eigen::Index motions = motion_.motions();
   for (Eigen::Index k = 0; k < motions + system_.layout().states; ++k) {
     bool is_held = false;
     for (std::size_t c = controllers_; c < system_.controllers().size(); ++c)
       is_held = is_held || k == motions + system_.controllers()[c].states.held;
-    if (!is_held) kept.push_back(k);
+    if (!is_held) kept_.push_back(k);
   }
-  return kept;
+}
+
+/// The rows of the extra states that are kept, of a jump.
+Eigen::MatrixXcd LinearDerivatives::kept_rows(const Eigen::MatrixXcd& jump) const {
+  const Eigen::Index motions = motion_.motions(), states = to_signed(kept_.size()) - motions;
+  Eigen::MatrixXcd rows(states, jump.cols());
+  for (Eigen::Index k = 0; k < states; ++k)
+    rows.row(k) = jump.row(kept_[to_index(motions + k)] - motions);
+  return rows;
+}
+
+/// The state that is the effort beside the output of a controller that drives.
+Eigen::Index LinearDerivatives::disturbance_of(std::size_t controller) const {
+  std::size_t disturbance = controllers_;
+  for (std::size_t c = 0; c < controller; ++c)
+    if (study_.disturbances[c] >= 0) ++disturbance;
+  return motion_.motions() + system_.controllers()[disturbance].states.held;
 }
 
 /// Takes the held outputs that are disturbances from the states to the inputs.
@@ -159,19 +176,17 @@ void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixX
     for (const auto& entry : gradient.rate) row += entry.value * z.row(entry.column);
     C.row(to_signed(c)) = row;
   }
-  const std::vector<Eigen::Index> kept = kept_states();
-  const Eigen::Index states = to_signed(kept.size());
+  const Eigen::Index states = to_signed(kept_.size());
   ComplexSpace& flow = space_->flow;
-  flow.A = A(kept, kept);
-  flow.C = C(Eigen::all, kept);
+  flow.A = A(kept_, kept_);
+  flow.C = C(Eigen::all, kept_);
   flow.B = Eigen::MatrixXcd::Zero(states, to_signed(controllers_));
   flow.D = Eigen::MatrixXcd::Zero(to_signed(controllers_), to_signed(controllers_));
-  std::size_t disturbance = controllers_;
   for (std::size_t c = 0; c < controllers_; ++c) {
     if (study_.disturbances[c] < 0) continue;
-    const Eigen::Index column = motion.motions + system_.controllers()[disturbance++].states.held;
+    const Eigen::Index column = disturbance_of(c);
     for (Eigen::Index k = 0; k < states; ++k)
-      flow.B(k, to_signed(c)) = A(kept[to_index(k)], column);
+      flow.B(k, to_signed(c)) = A(kept_[to_index(k)], column);
     flow.D.col(to_signed(c)) = C.col(column);
   }
 }
@@ -185,14 +200,7 @@ PeriodMap<Complex> LinearDerivatives::period_map(int opened) {
           pattern_,
           opened,
           [this](const std::vector<ControlEvent>& events) -> Eigen::MatrixXcd {
-            const Eigen::MatrixXcd all = laws_.jump(events, space_->motion);
-            const std::vector<Eigen::Index> kept = kept_states();
-            const Eigen::Index motions = motion_.motions(),
-                               states = to_signed(kept.size()) - motions;
-            Eigen::MatrixXcd after(states, to_signed(kept.size()));
-            for (Eigen::Index k = 0; k < states; ++k)
-              after.row(k) = all.row(kept[to_index(motions + k)] - motions)(kept);
-            return after;
+            return kept_rows(laws_.jump(events, space_->motion))(Eigen::all, kept_);
           }};
 }
 
@@ -204,7 +212,7 @@ ComplexSpace LinearDerivatives::closed(std::size_t direction) {
 
 ComplexSpace LinearDerivatives::loop(std::size_t controller, std::size_t direction) {
   step(direction);
-  if (pattern_.period > 0.0) {
+  if (pattern_.samples[controller] > 0) {
     const PeriodMap<Complex> map = period_map(static_cast<int>(controller));
     return {map.by_states(), map.by_opened(), map.output(), map.direct()};
   }
@@ -212,13 +220,29 @@ ComplexSpace LinearDerivatives::loop(std::size_t controller, std::size_t directi
   ComplexSpace loop{space_->flow.A, space_->flow.B.col(c), space_->flow.C.row(c),
                     space_->flow.D.block(c, c, 1, 1)};
   const int lag = system_.controllers()[controller].states.lag;
-  if (lag < 0) return loop;
-  loop.B.setZero();
-  loop.B(motion_.motions() + lag, 0) =
-      1.0 /
-      study_.study.controllers[controller].realization.time_constant->at(space_->motion.parameters);
-  loop.D.setZero();
+  if (lag >= 0) {
+    loop.B.setZero();
+    loop.B(motion_.motions() + lag, 0) =
+        1.0 / study_.study.controllers[controller].realization.time_constant->at(
+                  space_->motion.parameters);
+    loop.D.setZero();
+  }
+  if (pattern_.period > 0.0) loop.pieces = pieces(lag < 0 ? disturbance_of(controller) : -1);
   return loop;
+}
+
+/// The events and flows of a period. @param input the state that is the input; -1: none.
+PeriodPieces LinearDerivatives::pieces(Eigen::Index input) {
+  const Eigen::Index states = space_->flow.A.rows();
+  return period_pieces(system_, motion_.motions(), states, pattern_,
+                       [&](const std::vector<ControlEvent>& events) {
+                         const Eigen::MatrixXcd all = laws_.jump(events, space_->motion);
+                         const Eigen::MatrixXcd own = kept_rows(all);
+                         Eigen::MatrixXcd after = Eigen::MatrixXcd::Zero(own.rows(), states + 1);
+                         after.leftCols(states) = own(Eigen::all, kept_);
+                         if (input >= 0) after.col(states) = own.col(input);
+                         return after;
+                       });
 }
 
 }  // namespace codesign

@@ -14,12 +14,6 @@
 
 namespace codesign {
 
-/// Matrices of a linearization whose imaginary parts are derivatives along one direction of the
-/// design, a complex step: divided by `step`.
-struct ComplexSpace {
-  Eigen::MatrixXcd A, B, C, D;
-};
-
 /// The derivatives of a linearization about rest, and of its loops, by the tuned parameters, theory
 /// (70): through the equations' derivatives and through the posture. What is exact in the
 /// equations is exact here: the derivatives are recorded ones at a complex step. Not thread-safe.
@@ -31,7 +25,7 @@ class LinearDerivatives {
   ~LinearDerivatives();
 
   /// The imaginary part of a derivative of 1.
-  static constexpr double kStep = 1e-30;
+  static constexpr double kStep = ComplexSpace::kStep;
 
   /// Takes a design at rest. @param design all named parameters. @param state positions. @param
   /// integrals the state of each controller's integral. Statuses: those of LinearMotion.
@@ -59,7 +53,10 @@ class LinearDerivatives {
   void step(std::size_t direction);
   void set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& z);
   Eigen::MatrixXcd directions_of(const Eigen::MatrixXcd& rows) const;
-  std::vector<Eigen::Index> kept_states() const;
+  void keep_states();
+  Eigen::MatrixXcd kept_rows(const Eigen::MatrixXcd& jump) const;
+  Eigen::Index disturbance_of(std::size_t controller) const;
+  PeriodPieces pieces(Eigen::Index input);
   PeriodMap<std::complex<double>> period_map(int opened);
   LinearStudy study_of(const LinearCase& of);
 
@@ -73,6 +70,7 @@ class LinearDerivatives {
   Equations<std::complex<double>> equations_;
   Linearization<std::complex<double>> derivatives_;
   std::vector<double> design_;
+  std::vector<Eigen::Index> kept_;  ///< states of the loops
   std::vector<RestDerivatives::Change> changes_;
   std::unique_ptr<Space> space_;  ///< of the last direction
 };

@@ -7,6 +7,7 @@
 
 #include "control/controller.h"
 #include "forces/pade.h"
+#include "linear/flowing_loop.h"
 #include "linear/linear_motion.h"
 #include "linear/periodic_loop.h"
 #include "linear/sampled_motion.h"
@@ -171,27 +172,24 @@ class ModelWriter {
     return rates;
   }
 
-  std::string why_no_margins(std::size_t c) const {
-    return pattern_.period > 0.0 && pattern_.samples[c] == 0
-               ? "the loop of a continuous controller beside sampled ones is no transfer function"
-               : "";
-  }
-
   ControllerLoop loop_of(std::size_t c) {
     ControllerLoop loop;
     loop.controller = study_of_case().controllers[c].name;
-    loop.why_not = why_no_margins(c);
-    if (!loop.why_not.empty()) return loop;
-    const StateSpace closed = pattern_.period > 0.0
-                                  ? sampled_loop(&motion_, pattern_, static_cast<int>(c))
-                                  : continuous_loop(c);
-    loop.samples = static_cast<int>(closed.B.cols());
     const auto take = [&loop](const auto& open) {
       loop.margins = open.margins();
       loop.frequencies = open.grid();
       for (const double w : loop.frequencies) loop.response.push_back(open.at(w));
     };
-    loop.samples > 1 ? take(PeriodicLoop(closed)) : take(OpenLoop(closed));
+    if (pattern_.period == 0.0) {
+      take(OpenLoop(continuous_loop(c)));
+    } else if (pattern_.samples[c] == 0) {
+      loop.samples = 0;
+      take(FlowingLoop(flowing_loop(c)));
+    } else {
+      const StateSpace closed = sampled_loop(&motion_, pattern_, static_cast<int>(c));
+      loop.samples = pattern_.samples[c];
+      loop.samples > 1 ? take(PeriodicLoop(closed)) : take(OpenLoop(closed));
+    }
     return loop;
   }
 
@@ -210,6 +208,22 @@ class ModelWriter {
     loop.B(motion_.motions() + lag, 0) = 1.0 / time;
     loop.D.setZero();
     return loop;
+  }
+
+  /// The same beside sampled controllers.
+  ComplexSpace flowing_loop(std::size_t c) {
+    const StateSpace flow = continuous_loop(c);
+    const Eigen::Index states = flow.A.rows();
+    const bool has_lag = system_.controllers()[c].states.lag >= 0;
+    const auto jump = [&](const std::vector<ControlEvent>& events) {
+      const Eigen::MatrixXd all = motion_.jump(events);
+      Eigen::MatrixXcd after = Eigen::MatrixXcd::Zero(all.rows(), states + 1);
+      after.leftCols(states).real() = all.leftCols(states);
+      if (!has_lag) after.col(states).real() = all.col(states + study_.disturbances[c]);
+      return after;
+    };
+    return {flow.A, flow.B, flow.C, flow.D,
+            period_pieces(system_, motion_.motions(), states, pattern_, jump)};
   }
 
   /// Only the outputs that were asked for, and only the inputs that have an effect.

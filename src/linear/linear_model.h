@@ -41,8 +41,8 @@ struct LinearMode {
 /// The loop of a controller, opened at its output.
 struct ControllerLoop {
   std::string controller;
-  std::string why_not;  ///< why there are no margins; empty: there are
-  /// in the common period of all controllers; several: margins are those of PeriodicLoop
+  /// in the common period of all controllers; several: margins are those of PeriodicLoop; 0:
+  /// beside sampled controllers, those of FlowingLoop
   int samples = 1;
   LoopMargins margins;
   std::vector<double> frequencies;             ///< [rad/s], ascending

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "linear/flowing_loop.h"
 #include "linear/periodic_derivatives.h"
 #include "math/arrays.h"
 #include "math/linear_systems.h"
@@ -298,6 +299,7 @@ std::vector<AtFrequency> margins_of(const LoopMargins& margins, Kind kind) {
 
 double derivative_of(const AtFrequency& margin, Kind kind, double rest, const ComplexSpace& closed,
                      double period) {
+  if (!closed.pieces.order.empty()) return FlowingLoop(closed).derivative_of(margin, kind, rest);
   if (closed.B.cols() > 1) return periodic_derivative_of(margin, kind, rest, closed, period);
   const Loop loop(closed, period);
   switch (kind) {

@@ -14,6 +14,21 @@
 
 namespace codesign {
 
+/// Sample k writes to place k mod the length of a queue; the next period begins with another place.
+/// @param map of which the rows of queues change places: those of states from `motions` on.
+template <class Matrix>
+void renumber_queues(const System& system, const SamplePattern& pattern, Eigen::Index motions,
+                     Matrix* map) {
+  for (std::size_t c = 0; c < pattern.samples.size(); ++c) {
+    const int queued = system.study().controllers[c].realization.queued();
+    if (queued == 0) continue;
+    const Eigen::Index first = motions + system.controllers()[c].states.queue;
+    const Matrix places = map->middleRows(first, queued);
+    for (int k = 0; k < queued; ++k)
+      map->row(first + k) = places.row((k + pattern.samples[c]) % queued);
+  }
+}
+
 /// The map of [x | u | w] over one period, theory (68), w only where a loop is opened: one entry
 /// per sample of its controller. T: double, or std::complex<double>, whose imaginary parts are
 /// derivatives.
@@ -48,7 +63,7 @@ class PeriodMap {
       const double end = is_last ? pattern_.period : pattern_.instants[k + 1].time;
       flow(end - pattern_.instants[k].time);
     }
-    renumber_queues();
+    renumber_queues(system_, pattern_, motions_, &map_);
   }
 
   Matrix by_states() const { return map_.topLeftCorner(states_, states_); }
@@ -94,18 +109,6 @@ class PeriodMap {
     const auto known = flows_.find(time);
     if (known == flows_.end()) flows_[time] = matrix_exponential(Matrix(rate_ * T(time)));
     map_ = product(flows_[time], map_);
-  }
-
-  // Sample k writes to place k mod the length; the next period begins with another place.
-  void renumber_queues() {
-    for (std::size_t c = 0; c < pattern_.samples.size(); ++c) {
-      const int queued = system_.study().controllers[c].realization.queued();
-      if (queued == 0) continue;
-      const Eigen::Index first = motions_ + system_.controllers()[c].states.queue;
-      const Matrix places = map_.middleRows(first, queued);
-      for (int k = 0; k < queued; ++k)
-        map_.row(first + k) = places.row((k + pattern_.samples[c]) % queued);
-    }
   }
 
   const System& system_;

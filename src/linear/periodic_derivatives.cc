@@ -1,7 +1,6 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "linear/periodic_derivatives.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -31,7 +30,7 @@ class Period {
         dC_(kPer * closed.C.imag()),
         dD_(kPer * closed.D.imag()),
         period_(period),
-        open_(A_, B_, C_, D_) {
+        open_(A_, B_, C_, D_, period) {
     const MatrixXd unit = MatrixXd::Identity(D_.rows(), D_.cols());
     const MatrixXd E = unit - open_.D, dE = -E * dD_ * E;
     open_dC_ = dE * C_ + E * dC_;
@@ -79,55 +78,6 @@ class Period {
   MatrixXd open_dA_, open_dB_, open_dC_, open_dD_;
 };
 
-/// A pole on the unit circle, and the relative change of z along the direction and by the factor.
-struct Crossing {
-  Complex factor;
-  double apart = 0.0;  ///< of the pole from where it is to be
-  Complex change, by_factor;
-};
-
-Crossing crossing_at(const Period& loop, Complex factor, double frequency) {
-  const Complex z = loop.turn(frequency);
-  const std::vector<EigenTriple> poles = complex_eigen(loop.open().closed_by(factor));
-  const auto nearest = std::min_element(
-      poles.begin(), poles.end(), [&z](const EigenTriple& one, const EigenTriple& other) {
-        return std::abs(one.value - z) < std::abs(other.value - z);
-      });
-  const auto moved = [&](const MatrixXcd& by) {
-    return product(nearest->left.transpose(), product(by, nearest->right))(0, 0) / nearest->value;
-  };
-  return {factor, std::abs(nearest->value - z), moved(loop.moved_by(factor)),
-          moved(loop.open().by_factor(factor))};
-}
-
-double gain_derivative(const Period& loop, const AtFrequency& margin) {
-  const Crossing at = crossing_at(loop, margin.value, margin.frequency);
-  return -at.change.real() / at.by_factor.real();
-}
-
-/// The change of a lag [rad], and of the frequency at which it is.
-struct LagChange {
-  double lag = 0.0, frequency = 0.0;
-};
-LagChange lag_change(const Period& loop, const Crossing& at) {
-  const Complex by_lag = -kImaginary * at.factor * at.by_factor;
-  const double lag = -at.change.real() / by_lag.real();
-  return {lag, (at.change + by_lag * lag).imag() / loop.period()};
-}
-
-double phase_derivative(const Period& loop, const AtFrequency& margin) {
-  const Crossing lag = crossing_at(loop, std::polar(1.0, -margin.value), margin.frequency),
-                 lead = crossing_at(loop, std::polar(1.0, margin.value), margin.frequency);
-  return lag.apart <= lead.apart ? lag_change(loop, lag).lag : -lag_change(loop, lead).lag;
-}
-
-double delay_derivative(const Period& loop, const AtFrequency& margin) {
-  const double w = margin.frequency;
-  const LagChange change =
-      lag_change(loop, crossing_at(loop, std::polar(1.0, -margin.value * w), w));
-  return (change.lag - margin.value * change.frequency) / w;
-}
-
 double peak_derivative(const Period& loop, double frequency, bool complementary) {
   const Period::Response H = loop.response(frequency);
   MatrixXcd G = H.value;
@@ -169,19 +119,16 @@ double periodic_derivative_of(const AtFrequency& margin, Kind kind, double rest,
                               const ComplexSpace& closed, double period) {
   const Period loop(closed, period);
   switch (kind) {
-    case Kind::kGainMargin:
-    case Kind::kGainReduction:
-      return gain_derivative(loop, margin);
-    case Kind::kPhaseMargin:
-      return phase_derivative(loop, margin);
-    case Kind::kDelayMargin:
-      return delay_derivative(loop, margin);
     case Kind::kBandwidth:
       return bandwidth_derivative(loop, margin.frequency, rest);
     case Kind::kSensitivity:
       return peak_derivative(loop, margin.frequency, false);
-    default:
+    case Kind::kComplementarySensitivity:
       return peak_derivative(loop, margin.frequency, true);
+    default:
+      return pole_margin_derivative(
+          loop.open(), [&loop](Complex factor) { return loop.moved_by(factor); }, period, margin,
+          kind);
   }
 }
 

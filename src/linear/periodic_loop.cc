@@ -15,19 +15,18 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 
-constexpr double kOutside = 1e-6;  // beyond the unit circle, more than rounding
-constexpr double kMostGain = 1e9;  // a larger factor counts as none
-
 MatrixXcd unit(Eigen::Index size) { return MatrixXcd::Identity(size, size); }
 
 }  // namespace
 
 OpenedPeriod::OpenedPeriod(const StateSpace& closed)
-    : OpenedPeriod(closed.A, closed.B, closed.C, closed.D) {}
+    : OpenedPeriod(closed.A, closed.B, closed.C, closed.D, closed.period) {}
 
 // With w = u - y the closed loop from w to y becomes the open one from u to y.
 OpenedPeriod::OpenedPeriod(const Eigen::MatrixXd& closed_A, const Eigen::MatrixXd& closed_B,
-                           const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D) {
+                           const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D,
+                           double time)
+    : period(time) {
   const MatrixXcd per =
       complex_solution(unit(closed_D.rows()) + closed_D.cast<Complex>(), unit(closed_D.rows()));
   const Eigen::MatrixXd E = per.real();
@@ -61,6 +60,10 @@ MatrixXcd OpenedPeriod::closed_by(Complex factor) const {
 // With F = (I - k D)^-1: d(k F)/dk = F F.
 MatrixXcd OpenedPeriod::by_factor(Complex factor) const {
   return product(B.cast<Complex>(), solved(D, factor, outputs(factor)));
+}
+
+double OpenedPeriod::frequency_of(Complex factor, const EigenTriple& pole) const {
+  return main_frequency(product(outputs(factor), pole.right).col(0), std::arg(pole.value), period);
 }
 
 Eigen::VectorXcd sinusoid(double frequency, Eigen::Index samples, double period) {
@@ -138,113 +141,6 @@ Complex PeriodicLoop::at(double frequency) const {
   return -e.col(0).dot(L.of(e, 0.0).col(0)) / static_cast<double>(samples_);
 }
 
-namespace {
-
-Complex factor_at(bool is_lag, double place) {
-  return is_lag ? std::polar(1.0, -place) : Complex(std::exp(place));
-}
-
-}  // namespace
-
-int PeriodicLoop::unstable_with(Complex factor) const {
-  const MatrixXcd map = open_.closed_by(factor);
-  if (!map.allFinite()) return -1;
-  const Eigen::VectorXcd values = complex_eigenvalues(map);
-  return static_cast<int>((values.array().abs() > 1.0 + kOutside).count());
-}
-
-/// Halves the interval in which the number of poles outside changes, then goes to |z| = 1 by
-/// Newton's method for the pole that moves.
-PeriodicLoop::Crossing PeriodicLoop::crossing_between(Along along, double low, double high) const {
-  constexpr int kHalvings = 40, kCorrections = 6;
-  constexpr double kBeside = 1e-4;
-  const bool is_lag = along == Along::kLag;
-  const int before = unstable_with(factor_at(is_lag, low));
-  for (int k = 0; k < kHalvings; ++k) {
-    const double middle = 0.5 * (low + high);
-    (unstable_with(factor_at(is_lag, middle)) == before ? low : high) = middle;
-  }
-  Crossing found{0.5 * (low + high), 0.0};
-  for (int k = 0; k < kCorrections; ++k) {
-    const Complex factor = factor_at(is_lag, found.place);
-    const Complex turn = is_lag ? Complex(0.0, -1.0) * factor : factor;
-    const MatrixXcd by_place = turn * open_.by_factor(factor);
-    double fastest = 0.0, step = 0.0;
-    for (const EigenTriple& pole : complex_eigen(open_.closed_by(factor))) {
-      const double beside = std::log(std::abs(pole.value));
-      if (!(std::abs(beside) < kBeside)) continue;
-      const Complex moves = product(pole.left.transpose(), product(by_place, pole.right))(0, 0);
-      const double speed = (moves / pole.value).real();
-      if (!(std::abs(speed) > fastest)) continue;
-      fastest = std::abs(speed);
-      step = -beside / speed;
-      found.frequency = main_frequency(product(open_.outputs(factor), pole.right).col(0),
-                                       std::arg(pole.value), period_);
-    }
-    if (!(std::abs(step) < 0.1)) break;
-    found.place += step;
-    if (std::abs(step) < 1e-15) break;
-  }
-  return found;
-}
-
-std::vector<PeriodicLoop::Crossing> PeriodicLoop::crossings(Along along, double first, double last,
-                                                            int steps) const {
-  const bool is_lag = along == Along::kLag;
-  std::vector<Crossing> found;
-  double place = first;
-  int count = unstable_with(factor_at(is_lag, first));
-  for (int k = 1; k <= steps; ++k) {
-    const double next = first + (last - first) * k / steps;
-    const int there = unstable_with(factor_at(is_lag, next));
-    if (there < 0) break;
-    if (there != count) {
-      found.push_back(crossing_between(along, place, next));
-      // Of gains the first one counts, of an unstable loop the one that leaves nothing outside.
-      if (!is_lag && (is_stable_ || there == 0)) break;
-    }
-    place = next;
-    count = there;
-  }
-  return found;
-}
-
-void PeriodicLoop::find_gains(LoopMargins* margins) const {
-  constexpr int kSteps = 700;  // 3 % each
-  const double most = std::log(kMostGain);
-  const auto take = [&](double last, std::vector<AtFrequency>* all) {
-    for (const Crossing& crossing : crossings(Along::kGain, 0.0, last, kSteps))
-      all->push_back({std::exp(crossing.place), std::abs(crossing.frequency)});
-  };
-  if (is_stable_) take(most, &margins->all.gains);
-  take(-most, &margins->all.reductions);
-  margins->gain_margin = sort_margins(&margins->all.gains, std::less<>());
-  // Of a loop that is unstable the last one leads to gains at which it is stable.
-  margins->gain_reduction = sort_margins(&margins->all.reductions, std::less<>());
-  if (is_stable_ || !margins->gain_reduction) return;
-  constexpr double kBelow = 0.999;
-  if (unstable_with(kBelow * margins->gain_reduction->value) != 0) {
-    margins->all.reductions.clear();
-    margins->gain_reduction.reset();
-  } else {
-    margins->all.reductions = {*margins->gain_reduction};
-  }
-}
-
-// A lag of a positive frequency is a lead of the negative one.
-void PeriodicLoop::find_lags(LoopMargins* margins) const {
-  constexpr int kSteps = 720;  // a quarter of a degree each
-  for (const Crossing& crossing : crossings(Along::kLag, 0.0, kHalfTurn, kSteps)) {
-    const double frequency = std::abs(crossing.frequency);
-    margins->all.phases.push_back({crossing.place, frequency});
-    const double lag =
-        crossing.frequency >= 0.0 ? crossing.place : 2.0 * kHalfTurn - crossing.place;
-    if (frequency > 0.0) margins->all.delays.push_back({lag / frequency, frequency});
-  }
-  margins->phase_margin = sort_margins(&margins->all.phases, std::less<>());
-  margins->delay_margin = sort_margins(&margins->all.delays, std::less<>());
-}
-
 /// The largest singular value of I + H, or H, by power iteration from that of the frequency before;
 /// a part of all directions keeps it from one that has become the second one.
 double PeriodicLoop::norm_at(double frequency, bool complementary, Eigen::VectorXcd* right) const {
@@ -296,10 +192,8 @@ void PeriodicLoop::find_peaks(LoopMargins* margins) const {
 LoopMargins PeriodicLoop::margins() const {
   LoopMargins margins;
   margins.is_stable = is_stable_;
-  find_gains(&margins);
-  if (!is_stable_) return margins;
-  find_lags(&margins);
-  find_peaks(&margins);
+  find_pole_margins(open_, &margins);
+  if (is_stable_) find_peaks(&margins);
   return margins;
 }
 

@@ -6,26 +6,27 @@
 #include <vector>
 
 #include "linear/loop_margins.h"
+#include "linear/pole_margins.h"
 #include "linear/state_space.h"
 
 namespace codesign {
 
 /// A loop opened at the samples of one controller in a period, u to y, theory (69a):
 /// x(k+1) = A x(k) + B u(k), y(k) = C x(k) + D u(k), D strictly lower triangular.
-struct OpenedPeriod {
+struct OpenedPeriod : FactoredLoop {
   Eigen::MatrixXd A, B, C, D;
+  double period = 0.0;  ///< [s]
 
   /// @param closed sampled_loop()
   explicit OpenedPeriod(const StateSpace& closed);
   OpenedPeriod(const Eigen::MatrixXd& closed_A, const Eigen::MatrixXd& closed_B,
-               const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D);
+               const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D, double time);
 
-  /// The map of x over a period where u = factor y: of the gain, or of a lag.
-  Eigen::MatrixXcd closed_by(std::complex<double> factor) const;
-  /// y of x then.
+  Eigen::MatrixXcd closed_by(std::complex<double> factor) const override;
+  /// y of x where u = factor y.
   Eigen::MatrixXcd outputs(std::complex<double> factor) const;
-  /// The derivative of closed_by() by the factor.
-  Eigen::MatrixXcd by_factor(std::complex<double> factor) const;
+  Eigen::MatrixXcd by_factor(std::complex<double> factor) const override;
+  double frequency_of(std::complex<double> factor, const EigenTriple& pole) const override;
 };
 
 /// Numbers at samples, of which period after period is `turn` times the one before, seen as one
@@ -48,26 +49,14 @@ class PeriodicLoop {
   std::complex<double> at(double frequency) const;
   /// Frequencies at which it is to be seen.
   const std::vector<double>& grid() const { return grid_; }
-  /// By poles over the period: gain and phase margins are the factors exp(-j phase) or gain of all
-  /// outputs at which a pole has the size 1; a delay margin is the phase up to it by its frequency.
-  /// Sensitivities are the largest norms from outputs that are added to those that result.
+  /// Gain, phase and delay margins by find_pole_margins(), the factor of all outputs. Sensitivities
+  /// are the largest norms from outputs that are added to those that result.
   LoopMargins margins() const;
 
  private:
-  /// What a factor is of: the logarithm of a gain, or a lag in rad.
-  enum class Along { kGain, kLag };
-  struct Crossing {
-    double place, frequency;
-  };
-
-  int unstable_with(std::complex<double> factor) const;
-  Crossing crossing_between(Along along, double low, double high) const;
-  std::vector<Crossing> crossings(Along along, double first, double last, int steps) const;
   std::complex<double> closed_at(double frequency) const;
   double norm_at(double frequency, bool complementary, Eigen::VectorXcd* right) const;
   std::vector<AtFrequency> peaks_of(bool complementary) const;
-  void find_gains(LoopMargins* margins) const;
-  void find_lags(LoopMargins* margins) const;
   void find_peaks(LoopMargins* margins) const;
 
   StateSpace closed_;

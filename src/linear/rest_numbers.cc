@@ -56,8 +56,6 @@ Status RestNumbers::set_margin(const LinearMeasure& measure, const Equilibrium& 
                                Entry* entry) const {
   const std::string of = "the loop of controller \"" + measure.controller + "\" ";
   const ControllerLoop* const loop = loop_of(rest.linear, measure.controller);
-  if (!loop->why_not.empty())
-    return {StatusCode::kInvalidDesign, 0.0, of + "has no margins: " + loop->why_not};
   const std::vector<AtFrequency> margins = margins_of(loop->margins, measure.kind);
   if (!margins.empty()) {
     for (Eigen::Index k = 0; k < entry->values.size(); ++k)

@@ -26,8 +26,8 @@ class RestNumbers {
 
   /// @param parameters all named ones. Statuses: those of find_equilibrium() and LinearMotion;
   /// kNonFinite for a margin that is infinite, kUnstableMotion for margins of a loop that is
-  /// unstable, kInvalidDesign for a loop that has none, kNonFiniteGradient where poles meet, or the
-  /// number depends on a posture that nothing determines.
+  /// unstable, kNonFiniteGradient where poles meet, or the number depends on a posture that nothing
+  /// determines.
   Status evaluate(const std::vector<double>& parameters, bool with_gradient,
                   const std::atomic<bool>* cancel);
   /// One per such signal, in the order of Study::watched.

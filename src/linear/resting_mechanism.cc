@@ -35,7 +35,9 @@ void hold(const std::vector<double>& parameters, ControllerDescription* controll
   if (controller->i.at(parameters) == 0.0) controller->i = Quantity(0.0);
   controller->setpoint = held(controller->setpoint, parameters);
   controller->feedforward = held(controller->feedforward, parameters);
-  // At rest the output of a filter is its input.
+  // At rest there are no rates, which signals of samples do not have, and the output of a filter is
+  // its input.
+  if (controller->kind->is_pid) controller->d = Quantity(0.0);
   controller->filters.clear();
   for (FeedbackTerm& term : controller->feedback) {
     term.reference = held(term.reference, parameters);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "linear/period_map.h"
 #include "math/arrays.h"
@@ -87,7 +88,7 @@ SamplePattern sample_pattern(const MotionStudy& study) {
     if (!slowest || times.back() > slowest->realization.sample_time) slowest = &controller;
   }
   pattern.samples.assign(study.controllers.size(), 0);
-  if (times.empty()) return pattern;
+  if (!slowest) return pattern;
   const double longest = slowest->realization.sample_time;
   const int count = common_samples(times, longest);
   if (count == 0)
@@ -145,6 +146,42 @@ StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int 
           map.by_opened(),
           map.output(),
           map.direct()};
+}
+
+namespace {
+
+/// Adds a piece, or a place of one alike.
+void add_piece(PeriodPiece piece, double alike, PeriodPieces* pieces) {
+  for (const PeriodPiece& other : pieces->different)
+    if (std::abs(other.time - piece.time) <= alike) piece.time = other.time;
+  const auto found = std::find_if(pieces->different.begin(), pieces->different.end(),
+                                  [&piece](const PeriodPiece& other) {
+                                    return other.time == piece.time && other.jump == piece.jump;
+                                  });
+  pieces->order.push_back(static_cast<int>(found - pieces->different.begin()));
+  if (found == pieces->different.end()) pieces->different.push_back(std::move(piece));
+}
+
+}  // namespace
+
+PeriodPieces period_pieces(
+    const System& system, Eigen::Index motions, Eigen::Index states, const SamplePattern& pattern,
+    const std::function<Eigen::MatrixXcd(const std::vector<ControlEvent>&)>& jump) {
+  constexpr double kRounding = 1e-14;  // of the period
+  const double alike = kRounding * pattern.period;
+  const Eigen::MatrixXcd unit = Eigen::MatrixXcd::Identity(states, states + 1);
+  PeriodPieces pieces;
+  for (std::size_t k = 0; k < pattern.instants.size(); ++k) {
+    const bool is_last = k + 1 == pattern.instants.size();
+    PeriodPiece piece{
+        unit, (is_last ? pattern.period : pattern.instants[k + 1].time) - pattern.instants[k].time};
+    piece.jump.bottomRows(states - motions) = jump(pattern.instants[k].events);
+    add_piece(std::move(piece), alike, &pieces);
+  }
+  PeriodPiece end{unit, 0.0};
+  renumber_queues(system, pattern, motions, &end.jump);
+  if (end.jump != unit) add_piece(std::move(end), alike, &pieces);
+  return pieces;
 }
 
 }  // namespace codesign

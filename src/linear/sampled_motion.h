@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,5 +39,12 @@ StateSpace sampled_motion(LinearMotion* motion, const SamplePattern& pattern);
 /// output, outputs y are those that the controller computes, one each per sample in the period.
 /// x(k+1) = A x(k) + B w(k), y(k) = C x(k) + D w(k), with D strictly lower triangular.
 StateSpace sampled_loop(LinearMotion* motion, const SamplePattern& pattern, int controller);
+
+/// The pieces of a period for a loop that is opened where it flows.
+/// @param states number of states x. @param jump events at one instant -> the states s behind them
+/// by [x | w].
+PeriodPieces period_pieces(
+    const System& system, Eigen::Index motions, Eigen::Index states, const SamplePattern& pattern,
+    const std::function<Eigen::MatrixXcd(const std::vector<ControlEvent>&)>& jump);
 
 }  // namespace codesign

@@ -17,4 +17,26 @@ struct StateSpace {
   Eigen::MatrixXd A, B, C, D;
 };
 
+/// What happens to a motion at an instant of a period, and the time for which it flows then.
+struct PeriodPiece {
+  Eigen::MatrixXcd jump;  ///< x behind the instant by [x | w]; w: one input
+  double time = 0.0;      ///< [s]
+};
+
+/// The course of a period: which of some pieces follow each other.
+struct PeriodPieces {
+  std::vector<PeriodPiece> different;
+  std::vector<int> order;  ///< places in `different`
+};
+
+/// Matrices of a linearization whose imaginary parts are derivatives along one direction of the
+/// design, a complex step: divided by kStep.
+struct ComplexSpace {
+  static constexpr double kStep = 1e-30;
+  Eigen::MatrixXcd A, B, C, D;
+  /// the period of a loop of one input that flows between instants, which has A, B, C, D there;
+  /// empty: there is none
+  PeriodPieces pieces{};
+};
+
 }  // namespace codesign

@@ -144,6 +144,13 @@ Eigen::VectorXd balance(Eigen::MatrixXcd* A) {
 
 }  // namespace
 
+Eigen::MatrixXcd complex_exponential(const Eigen::MatrixXcd& A) {
+  Eigen::MatrixXcd balanced = A;
+  const Eigen::VectorXd scale = balance(&balanced);
+  const Eigen::MatrixXcd result = balanced.exp();
+  return scale.asDiagonal() * result * scale.cwiseInverse().asDiagonal();
+}
+
 Eigen::VectorXcd complex_eigenvalues(const Eigen::MatrixXcd& A) {
   if (A.rows() == 0) return {};
   Eigen::MatrixXcd balanced = A;

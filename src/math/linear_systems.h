@@ -31,6 +31,8 @@ SystemEigen system_eigen(const Eigen::MatrixXd& A);
 Eigen::MatrixXd matrix_exponential(const Eigen::MatrixXd& A);
 /// The same of numbers with derivatives as imaginary parts, a complex step.
 Eigen::MatrixXcd matrix_exponential(const Eigen::MatrixXcd& A);
+/// The same of complex numbers, balanced by their sizes.
+Eigen::MatrixXcd complex_exponential(const Eigen::MatrixXcd& A);
 
 /// The solutions of A x = b, one per column, by LU with partial pivoting; A b.
 Eigen::MatrixXcd complex_solution(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& b);

@@ -190,10 +190,12 @@ std::string joint_fault(const RobotDescription& robot, const Pair& pair,
       return "the gear of joint '" + joint.name +
              "' is out of range (allowed: efficiency > 0 and at most 1, backdrive_efficiency at "
              "most 1, coulomb and viscous >= 0, all others > 0)";
-    if (joint.has_elastic_gear() && !(is_possible(d.elastic) && d.rotor_inertia + d.armature > 0.0))
+    // A motor that moves by itself has its speed by the gear ratio.
+    if (joint.has_elastic_gear() &&
+        !(is_possible(d.elastic) && d.rotor_inertia + d.armature > 0.0 && d.gear_ratio != 0.0))
       return "the elastic gear of joint '" + joint.name +
              "' is out of range (allowed: stiffness > 0, damping >= 0, backlash > 0, rotor_inertia "
-             "or armature > 0)";
+             "or armature > 0, gear_ratio not 0)";
     if (joint.has_winding() && !is_possible(d.winding, joint.actuator->winding->has_state()))
       return "the winding of joint '" + joint.name +
              "' is out of range (allowed: resistance, torque_constant and bus_voltage > 0, "

@@ -203,6 +203,22 @@ TEST(Equilibrium, AnIntegralLeavesNoError) {
   }
 }
 
+// The difference of samples needs no rate of its signal: an inner loop of the speed reads what an
+// outer one wants.
+TEST(Equilibrium, OfASampledCascadeWithADerivative) {
+  const Problem problem =
+      loaded(pendulum_urdf(),
+             start_at(0.0,
+                      "controllers: {outer: {type: pid, input: hinge/position, setpoint: 0.7, "
+                      "gains: {p: 4}, sample_time: 0.01}, inner: {type: pid, input: hinge/velocity "
+                      "- outer/output, setpoint: 0, output: hinge, gains: {p: 20, i: 4, d: 0.01}, "
+                      "sample_time: 0.01, derivative: measurement}}\n"));
+  const Equilibrium found = equilibrium_of(problem);
+  ASSERT_TRUE(found.status.ok()) << found.status.cause;
+  EXPECT_NEAR(position_of(found, "hinge"), 0.7, 1e-9);
+  EXPECT_EQ(found.linear.stability, Stability::kStable) << found.linear.verdict;
+}
+
 // Above i < 1.3 (20 + m g l cos)/0.6 it is unstable, by Routh.
 TEST(Equilibrium, TooMuchOfAnIntegralIsUnstable) {
   const double limit = 1.3 * (20.0 + kGravity * std::cos(0.7)) / 0.6;

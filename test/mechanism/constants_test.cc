@@ -97,6 +97,20 @@ TEST(FindImpossible, NamesTheJointOfABadFriction) {
   EXPECT_NE(verdict(0.35).find("joint 'hinge'"), std::string::npos) << "mu_dynamic above mu_static";
 }
 
+// The speed of a motor behind an elastic gear is the gear ratio times that of its side.
+TEST(FindImpossible, NamesAnElasticGearWithoutRatio) {
+  Mechanism mechanism(
+      link_with("arm") +
+      joint_with("hinge", "continuous", "ground", "arm",
+                 "<axis xyz='0 1 0'/><codesign:actuator gear_ratio='0.2' "
+                 "codesign:gear_ratio='${length}' rotor_inertia='0.1' stiffness='100'/>"));
+  const auto verdict = [&](double ratio) {
+    return find_impossible(mechanism.robot, mechanism.topology, mechanism.at(ratio));
+  };
+  EXPECT_EQ(verdict(-0.1), "");
+  EXPECT_NE(verdict(0.0).find("the elastic gear of joint 'hinge'"), std::string::npos);
+}
+
 TEST(DefaultValues, ComeInTheOrderOfTheParameters) {
   RobotDescription robot;
   EXPECT_TRUE(default_values(robot).empty());

@@ -117,6 +117,68 @@ class Loops(unittest.TestCase):
             growth = math.log(np.abs(np.linalg.eigvals(period(part * gain))).max()) / 0.15
             self.assertAlmostEqual(problem.linearize(p=8.0 * part * gain).modes[0]["growth"], growth, delta=1e-9)
 
+    def test_margins_of_a_continuous_loop_beside_a_sampled_one(self):
+        """A PD with a lag, and a damper that is sampled each 0.1 s and 0.05 s late: poles over 0.1 s of matrices that are set up here, norms of signals in 96 steps, and
+        runs beside the gain margin."""
+        study = ("duration: 60.0\ninitial_state: {slide: {position: 0.01}}\nparameters: {k: {initial: 1.0, lower: 0.1, upper: 100.0}}\n"
+                 "objective: {terminal: [{signal: slide/position}]}\ncontrollers:\n"
+                 "  servo: {type: pid, input: slide/position, setpoint: 0.0, output: slide, gains: {p: \"${20*k}\", d: \"${k}\"}, time_constant: 0.05}\n"
+                 "  damper: {type: pid, input: slide/velocity, setpoint: 0.0, output: slide, gains: {p: 6.0}, sample_time: 0.1, delay: 0.05}\n"
+                 "solver: {relative_tolerance: 1.0e-10, absolute_tolerance: 1.0e-13}\n")
+        output = np.array([-20.0, -1, 0, 0, 0])  # of (x, v, effort, held, waiting)
+        sample, apply = np.eye(5), np.eye(5)
+        sample[4], apply[3] = [0, -6, 0, 0, 0], [0, 0, 0, 0, 1]
+        flow = np.array([[0, 1, 0, 0, 0], [0, -1, 1, 1, 0], [0, 0, -20, 0, 0], [0] * 5, [0] * 5], dtype=complex)
+
+        def period(factor):
+            closed = flow.copy()
+            closed[2] += 20 * factor * output
+            half = linalg.expm(0.05 * closed)
+            return half @ apply @ half @ sample
+
+        def beyond(factor):
+            return np.abs(np.linalg.eigvals(period(factor))).max() - 1.0
+
+        def norm(angle, shift, steps):
+            """The largest singular value of signals that are constant in each of the steps of half a period."""
+            closed = np.zeros((7, 7))
+            closed[:5, :5], closed[2, 5] = flow.real, 20.0
+            closed[2, :5] += 20 * output
+            closed[6, :5] = output
+            once = linalg.expm(0.05 / steps * closed)
+            state, rows = np.hstack([np.eye(5), np.zeros((5, 2 * steps))]), []
+            for step in range(2 * steps):
+                state = {0: sample, steps: apply}.get(step, np.eye(5)) @ state
+                rows.append(once[6, :5] @ state * steps / 0.05)
+                rows[-1][5 + step] += once[6, 5] * steps / 0.05 + shift
+                state = once[:5, :5] @ state
+                state[:, 5 + step] += once[:5, 5]
+            rows = np.array(rows)
+            lifted = rows[:, 5:] + rows[:, :5] @ np.linalg.solve(np.exp(1j * angle) * np.eye(5) - state[:, :5], state[:, 5:])
+            return np.linalg.norm(lifted, 2)
+
+        problem = codesign.Problem(CART, study)
+        loop = problem.linearize().loops["servo"]
+        self.assertEqual(loop["samples"], 0)
+        gain = optimize.brentq(beyond, 2.0, 20.0, xtol=1e-13)
+        self.assertAlmostEqual(loop["gain_margin"]["value"], gain, delta=1e-9)
+        angles = np.linspace(0.0, math.pi, 2001)
+        first = next(k for k, angle in enumerate(angles) if beyond(np.exp(-1j * angle)) > 1e-9)
+        phase = optimize.brentq(lambda angle: beyond(np.exp(-1j * angle)), angles[first - 1], angles[first], xtol=1e-13)
+        self.assertAlmostEqual(loop["phase_margin"]["value"], phase, delta=1e-9)
+        turn = min(np.angle(np.linalg.eigvals(period(np.exp(-1j * phase)))), key=lambda angle: abs(angle / 0.1 - loop["phase_margin"]["frequency"]))
+        self.assertAlmostEqual(loop["phase_margin"]["frequency"], turn / 0.1, delta=1e-8)
+        self.assertAlmostEqual(loop["delay_margin"]["value"], phase * 0.1 / turn, delta=1e-9)
+        for name, shift in (("sensitivity", 1.0), ("complementary_sensitivity", 0.0)):
+            largest = [max(norm(angle, shift, steps) for angle in np.linspace(0.0, math.pi, 721)) for steps in (6, 12)]
+            self.assertAlmostEqual(loop[name]["value"], largest[1] + (largest[1] - largest[0]) / 3, delta=2e-5)
+        for part, stable in ((0.98, True), (1.02, False)):
+            run = problem.simulate(signals=["slide/position"], samples=6001, k=part * gain)
+            late, early = np.abs(run["slide/position"][-1000:]).max(), np.abs(run["slide/position"][2000:3000]).max()
+            self.assertEqual(late < early, stable)
+            growth = math.log(np.abs(np.linalg.eigvals(period(part * gain))).max()) / 0.1
+            self.assertAlmostEqual(problem.linearize(k=part * gain).modes[0]["growth"], growth, delta=1e-9)
+
     def test_a_slow_axis_hunts_where_friction_falls_with_speed(self):
         """At 0.05 m/s Stribeck's curve falls: the verdict at that speed agrees with runs, of which one slides evenly and the other sticks and slips."""
         model = CART.replace('<dynamics damping="1"/>', '<codesign:friction model="stribeck" coulomb="2" static="3" stribeck_velocity="0.1" transition_velocity="0.001" viscous="1"/>')

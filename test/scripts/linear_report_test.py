@@ -222,10 +222,10 @@ class Pages(unittest.TestCase):
         _, text = self.page((ROOT / "config/feed_axis.yaml").read_text(), ROOT / "urdf/feed_axis.urdf", ("--signals", "axis/velocity - position_loop/output"))
         self.assertNotIn("which is no state", text)
 
-    def test_a_loop_that_is_no_transfer_function_says_why(self):
+    def test_a_continuous_loop_beside_sampled_ones_says_so(self):
         _, text = self.page("duration: 1\ncontrollers:\n  servo: {type: pid, input: slide/position, setpoint: 0.0, output: slide, gains: {p: 4.0}}\n"
                             "  other: {type: pid, input: slide/velocity, setpoint: 0.0, output: slide, gains: {p: 1.0}, sample_time: 0.01}\n")
-        self.assertIn("No margins: the loop of a continuous controller beside sampled ones is no transfer function.", text)
+        self.assertIn("Margins by the poles over the common period of all controllers;", text)
 
     def test_its_own_file_is_not_replaced(self):
         self.page("duration: 1\n")
