@@ -138,6 +138,29 @@ Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& 
   return sum / (lag + 1.0);
 }
 
+// Sums over windows that end at a row, then over windows that begin there.
+Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                                 int lag) {
+  Eigen::MatrixXd result(terms.rows(), terms.cols());
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : lengths) {
+    const Eigen::MatrixXd sums = running_sums(terms, begin, length);
+    Eigen::RowVectorXd both = Eigen::RowVectorXd::Zero(terms.cols());
+    const auto window = [&](Eigen::Index end) {
+      return sums.row(std::min(end + 1, length)) -
+             sums.row(std::max<Eigen::Index>(end - lag, 0));
+    };
+    for (Eigen::Index end = 0; end < lag; ++end) both += window(end);
+    for (Eigen::Index k = 0; k < length; ++k) {
+      both += window(k + lag);
+      result.row(begin + k) = both / (lag + 1.0);
+      both -= window(k);
+    }
+    begin += length;
+  }
+  return result;
+}
+
 LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
                                       int lag) {
   const Eigen::VectorXd slopes = autoregression(terms, lengths);
@@ -147,11 +170,6 @@ LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const Series
   const Eigen::VectorXd recolor = (1.0 - slopes.array()).inverse();
   result.covariance =
       recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) * recolor.asDiagonal();
-  // Fixed-b asymptotics for kernels whose width is the fraction b of the sample: mean and degrees
-  // of freedom of the estimate.
-  const double b = (result.lag + 1.0) / static_cast<double>(terms.rows());
-  result.covariance /= 1.0 - b + b * b / 3.0;
-  result.degrees = 1.5 / b;
   return result;
 }
 
