@@ -56,6 +56,7 @@ struct RecordedArrays {
   std::vector<SignalSamples> signals;
   ParameterSettings settings;         ///< values of parameters in this recording
   std::vector<SpeedMask> masks;       ///< with a joint, or of all joints
+  RestRule rest = RestRule::kLeaveOut;
   std::vector<StartPosition> starts;  ///< known ones
 };
 
