@@ -140,8 +140,8 @@ struct RecordingDescription {
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
   std::vector<SpeedMask> masks;
   RestRule rest = RestRule::kLeaveOut;  ///< of the masks
-  std::vector<SignalColumn> signals;  ///< of a table: signals that are compared, too
-  std::string element;                ///< `identify.data[0]`
+  std::vector<SignalColumn> signals;    ///< of a table: signals that are compared, too
+  std::string element;                  ///< `identify.data[0]`
   SourceLocation where;
 };
 

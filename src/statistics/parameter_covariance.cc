@@ -74,8 +74,7 @@ struct LinearizedFit {
   Eigen::VectorXd scores(Eigen::Index begin, Eigen::Index count) const {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(Q.cols());
     for (Eigen::Index output = 0; output < residuals.cols(); ++output)
-      sum += block(output, begin, count).transpose() *
-             residuals.col(output).segment(begin, count);
+      sum += block(output, begin, count).transpose() * residuals.col(output).segment(begin, count);
     return sum;
   }
   Eigen::Block<const Eigen::MatrixXd> block(Eigen::Index output, Eigen::Index begin,
@@ -101,8 +100,7 @@ Contributions contributions_of_parts(const LinearizedFit& fit, const SeriesLengt
                        {fit.root.transpose()}};
   Eigen::Index begin = 0;
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    result.terms.row(to_signed(part)) =
-        (fit.root * fit.scores(begin, parts[part])).transpose();
+    result.terms.row(to_signed(part)) = (fit.root * fit.scores(begin, parts[part])).transpose();
     begin += parts[part];
   }
   return result;
@@ -172,8 +170,7 @@ void use_kernel(const LinearizedFit& fit, const Contributions& of, const Interva
 
 void use_independent(const LinearizedFit& fit, const Contributions& of,
                      const IntervalOptions& options, ParameterCovariance* result) {
-  const Eigen::MatrixXd terms =
-      of.terms * correct_by_moments(fit, of, 0, result).asDiagonal();
+  const Eigen::MatrixXd terms = of.terms * correct_by_moments(fit, of, 0, result).asDiagonal();
   result->covariance = terms.transpose() * terms;
   result->lag = 1;
   set_symmetric_intervals(options.level, result);
@@ -211,9 +208,8 @@ void use_sums(const LinearizedFit& fit, const SeriesLengths& lengths,
 }
 
 /// Sums over pieces with unknowns of their own, to which each contribution of a piece is tied.
-void use_pieces(const LinearizedFit& fit, const SeriesLengths& lengths,
-                const SeriesLengths& pieces, const IntervalOptions& options,
-                ParameterCovariance* result) {
+void use_pieces(const LinearizedFit& fit, const SeriesLengths& lengths, const SeriesLengths& pieces,
+                const IntervalOptions& options, ParameterCovariance* result) {
   const Contributions sums = contributions_of_pieces(fit, lengths, pieces);
   auto use = use_bootstrap;
   if (options.noise == NoiseModel::kCorrelated)

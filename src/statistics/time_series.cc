@@ -147,8 +147,7 @@ Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengt
     const Eigen::MatrixXd sums = running_sums(terms, begin, length);
     Eigen::RowVectorXd both = Eigen::RowVectorXd::Zero(terms.cols());
     const auto window = [&](Eigen::Index end) {
-      return sums.row(std::min(end + 1, length)) -
-             sums.row(std::max<Eigen::Index>(end - lag, 0));
+      return sums.row(std::min(end + 1, length)) - sums.row(std::max<Eigen::Index>(end - lag, 0));
     };
     for (Eigen::Index end = 0; end < lag; ++end) both += window(end);
     for (Eigen::Index k = 0; k < length; ++k) {

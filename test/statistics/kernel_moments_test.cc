@@ -71,12 +71,11 @@ TEST(KernelMoments, AreTheTracesOfTheQuadraticForm) {
   const Regression fit;
   ASSERT_LT((fit.Q.transpose() * fit.Q - Eigen::MatrixXd::Identity(3, 3)).norm(), 1e-10);
   const SeriesLengths ones(Regression::kTimes, 1), fives(12, 5);
-  for (const auto& [parts, lengths] : {std::pair<SeriesLengths, SeriesLengths>{ones, {60}},
-                                       {ones, {25, 35}},
-                                       {fives, {5, 7}}})
+  for (const auto& [parts, lengths] :
+       {std::pair<SeriesLengths, SeriesLengths>{ones, {60}}, {ones, {25, 35}}, {fives, {5, 7}}})
     for (const int lag : {0, 3, 10}) {
-      const KernelMoments moments = kernel_moments(fit.Q, Regression::kOutputs, parts, lengths, lag,
-                                                   {fit.root.transpose()});
+      const KernelMoments moments =
+          kernel_moments(fit.Q, Regression::kOutputs, parts, lengths, lag, {fit.root.transpose()});
       for (Eigen::Index k = 0; k < 3; ++k) {
         const Eigen::MatrixXd A = fit.on_noise(k, parts),
                               WC = kernel_of(lengths, lag) * A * A.transpose();
@@ -91,8 +90,7 @@ TEST(KernelMoments, OfAMeanAreThoseOfStudent) {
   constexpr Eigen::Index kCount = 40;
   const Eigen::MatrixXd Q = Eigen::MatrixXd::Constant(kCount, 1, 1.0 / std::sqrt(40.0));
   const Eigen::MatrixXd map = Eigen::MatrixXd::Constant(1, 1, 1.0 / std::sqrt(40.0));
-  const KernelMoments moments =
-      kernel_moments(Q, 1, SeriesLengths(kCount, 1), {kCount}, 0, {map});
+  const KernelMoments moments = kernel_moments(Q, 1, SeriesLengths(kCount, 1), {kCount}, 0, {map});
   EXPECT_NEAR(moments.means[0] * kCount, 39.0 / 40.0, 1e-12);
   EXPECT_NEAR(moments.degrees[0], 39.0, 1e-9);
 }

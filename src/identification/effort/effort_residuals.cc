@@ -197,14 +197,16 @@ Eigen::MatrixXd EffortResiduals::rows_of(std::size_t recording, std::size_t outp
                                          const Eigen::VectorXd& x, bool with_slopes) const {
   Eigen::MatrixXd columns;
   if (!is_bounded(recording, output)) {
-    fill(recording, output, x, with_slopes,
-         [this](Eigen::Index sample) { return bounds_->place(sample); }, &columns);
+    fill(
+        recording, output, x, with_slopes,
+        [this](Eigen::Index sample) { return bounds_->place(sample); }, &columns);
     return counted_of(recording, output, &columns);
   }
   const Eigen::Index joint = model_->driven().drives[to_index(drives_[output])];
   const auto bound = [&](bool is_forward) {
-    fill(recording, output, x, with_slopes,
-         [&](Eigen::Index sample) { return bounds_->bound(joint, sample, is_forward); }, &columns);
+    fill(
+        recording, output, x, with_slopes,
+        [&](Eigen::Index sample) { return bounds_->bound(joint, sample, is_forward); }, &columns);
     return fitted(recording, &columns);
   };
   Eigen::MatrixXd kept = bound(false);

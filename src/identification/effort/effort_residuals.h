@@ -22,8 +22,8 @@ namespace codesign {
 /// doc/theory.md (28c), then signals, at the samples to fit, and their exact derivatives. If
 /// FilterOptions::residual_cutoff is set, both pass the same zero-phase filter. Samples at which a
 /// joint is slower than its JointSamples::least_speed are zero before the filter and behind it, so
-/// that the filter spreads nothing of what friction at rest does. With JointSamples::has_bounds they
-/// are the distance from the efforts between which friction at rest is, zero within, (28d).
+/// that the filter spreads nothing of what friction at rest does. With JointSamples::has_bounds
+/// they are the distance from the efforts between which friction at rest is, zero within, (28d).
 class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.

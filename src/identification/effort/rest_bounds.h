@@ -20,7 +20,9 @@ class RestBounds {
   /// The motion with the samples that were added.
   const MotionSamples& samples() const { return samples_; }
   /// The added samples' places do not matter for these: the place of a measured sample.
-  Eigen::Index place(Eigen::Index sample) const { return places_[static_cast<std::size_t>(sample)]; }
+  Eigen::Index place(Eigen::Index sample) const {
+    return places_[static_cast<std::size_t>(sample)];
+  }
   const std::vector<Eigen::Index>& places() const { return places_; }
   /// Whether a joint rests at a sample.
   bool rests(Eigen::Index joint, Eigen::Index sample) const {

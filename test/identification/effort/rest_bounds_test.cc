@@ -79,11 +79,12 @@ constexpr double kSpeed = 0.05, kInertia = 0.8, kViscous = 0.4, kCoulomb = 0.9;
 
 Problem arm(const std::string& filter) {
   return load_problem({"arm.urdf", kArm}, {},
-                      {"study.yaml", "identify:\n  data: [{csv: data.csv, mask: {speed: 0.05, "
-                                     "rest: bounds}}]\n  filter: {" +
-                                         filter +
-                                         "}\nparameters: {inertia: {}, viscous: {}, coulomb: "
-                                         "{}}\noptimizer: {relative_tolerance: 1.0e-12}\n"});
+                      {"study.yaml",
+                       "identify:\n  data: [{csv: data.csv, mask: {speed: 0.05, "
+                       "rest: bounds}}]\n  filter: {" +
+                           filter +
+                           "}\nparameters: {inertia: {}, viscous: {}, coulomb: "
+                           "{}}\noptimizer: {relative_tolerance: 1.0e-12}\n"});
 }
 
 /// Moves there and back for 1 s by a fourth power of a sine and rests for 0.6 s in turn, with an
