@@ -32,8 +32,9 @@ struct LongRunCovariance {
 };
 
 /// The covariance of the sums over all rows of `terms` (p columns of mean about zero), as Newey and
-/// West estimate it, on terms made less correlated by one autoregression of order one per column;
-/// doc/theory.md (34), (35). Never negative. Terms of different series are taken as independent.
+/// West estimate it, on terms made less correlated by an autoregression per column, the mean of
+/// orders one and two; doc/theory.md (34), (35). Never negative. Terms of different series are
+/// taken as independent.
 /// @param lag of the Bartlett kernel; 0: automatic, automatic_lag(). At most a quarter of the rows
 /// is used.
 LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
