@@ -26,6 +26,8 @@ class Recording:
         Values of parameters in this recording, by name, which the study does not tune.
     mask:
         The speed [rad/s or m/s] below which samples of a joint do not count: a number for all joints, or {joint: speed}.
+    rest:
+        What counts of samples below that speed: "leave_out", nothing; "bounds", how far the effort is from those of the joint that just moves.
     start:
         {joint: position at the first sample [rad or m]}, where velocities alone were recorded.
     """
@@ -33,13 +35,14 @@ class Recording:
     def __init__(self, time: npt.ArrayLike, position: Optional[Columns] = None, effort: Optional[Columns] = None, *,
                  velocity: Optional[Columns] = None, joints: Optional[Sequence[str]] = None,
                  signals: Optional[Mapping[str, npt.ArrayLike]] = None, set: Optional[Mapping[str, float]] = None,  # pylint: disable=redefined-builtin
-                 mask: Union[float, Mapping[str, float], None] = None, start: Optional[Mapping[str, float]] = None):
+                 mask: Union[float, Mapping[str, float], None] = None, rest: str = "leave_out", start: Optional[Mapping[str, float]] = None):
         self._time = time
         self._sides = (position, velocity, effort)
         self._joints = joints
         self._signals = dict(signals or {})
         self._set = dict(set or {})
         self._mask = dict(mask) if isinstance(mask, Mapping) else {} if mask is None else {"": float(mask)}
+        self._rest = rest
         self._start = dict(start or {})
 
     def _table(self, name: str, joints: Sequence[str]) -> Tuple[Any, ...]:
@@ -48,7 +51,7 @@ class Recording:
         sides = [_columns(values, names, what) for values, what in zip(self._sides, ("position", "velocity", "effort"))]
         measured = list({**sides[0], **sides[1], **sides[2]})
         columns = [(joint, *(side.get(joint) for side in sides)) for joint in measured]
-        return name, self._time, columns, list(self._signals.items()), self._set, self._mask, self._start
+        return name, self._time, columns, list(self._signals.items()), self._set, self._mask, self._start, self._rest
 
 
 def _columns(values: Optional[Columns], joints: Sequence[str], what: str) -> Dict[str, npt.ArrayLike]:

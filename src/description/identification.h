@@ -90,6 +90,13 @@ struct RecordedSetting {
   double value = 0.0;
 };
 
+/// What counts of the samples at which a joint is slower than its mask: `mask: {rest: bounds}`.
+enum class RestRule {
+  kLeaveOut,
+  kBounds,  ///< the distance from the efforts between which friction at rest is, theory (28d)
+};
+constexpr std::array<const char*, 2> kRestRuleNames{"leave_out", "bounds"};
+
 /// Below which speed of a joint its samples do not count: `mask: {speed: 0.01}`.
 struct SpeedMask {
   std::string joint;   ///< empty: each joint
@@ -132,8 +139,9 @@ struct RecordingDescription {
   std::vector<StartPosition> starts;      ///< of joints whose positions are integrated
   std::vector<RecordedSetting> settings;  ///< values of parameters in this recording
   std::vector<SpeedMask> masks;
-  std::vector<SignalColumn> signals;  ///< of a table: signals that are compared, too
-  std::string element;                ///< `identify.data[0]`
+  RestRule rest = RestRule::kLeaveOut;  ///< of the masks
+  std::vector<SignalColumn> signals;    ///< of a table: signals that are compared, too
+  std::string element;                  ///< `identify.data[0]`
   SourceLocation where;
 };
 

@@ -282,7 +282,7 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
   const std::vector<int> columns = free_columns(*result);
   const ParameterCovariance plain =
       covariance_of(fit, options.loss, *source, white(options), {}, columns);
-  const double degrees =
+  const Eigen::VectorXd degrees =
       covariance_of(fit, options.loss, *source, options.intervals, {}, columns).degrees;
   for (std::size_t k = 0; k < columns.size(); ++k) {
     IdentifiedNumber& number = result->numbers[to_index(columns[k])];
@@ -293,7 +293,7 @@ void add_profiles(const FitProblem& problem, const IdentificationDescription& op
     profile.optimum = number.value;
     profile.cost = fit.cost;
     profile.threshold =
-        profile_threshold(options.intervals.level, plain.residual_variance, inflation, degrees);
+        profile_threshold(options.intervals.level, plain.residual_variance, inflation, degrees[i]);
     profile.step = 0.5 * (number.high - number.low);
     profile.lower = number.lower;
     profile.upper = number.upper;

@@ -106,6 +106,7 @@ std::vector<RecordingDescription> descriptions_of(const Problem& problem,
     description.where = {"arrays", 0};
     description.settings = settings_of(study, arrays);
     description.masks = arrays.masks;
+    description.rest = arrays.rest;
     description.starts = arrays.starts;
   }
   return descriptions;

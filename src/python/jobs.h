@@ -54,8 +54,9 @@ struct RecordedArrays {
   std::vector<double> times;
   std::vector<JointSamples> joints;
   std::vector<SignalSamples> signals;
-  ParameterSettings settings;         ///< values of parameters in this recording
-  std::vector<SpeedMask> masks;       ///< with a joint, or of all joints
+  ParameterSettings settings;    ///< values of parameters in this recording
+  std::vector<SpeedMask> masks;  ///< with a joint, or of all joints
+  RestRule rest = RestRule::kLeaveOut;
   std::vector<StartPosition> starts;  ///< known ones
 };
 

@@ -27,7 +27,7 @@ std::vector<double> column_of(const py::handle& values, const std::string& name,
 }
 
 /// @param recording (name, time, [(joint, position, velocity, effort)], [(signal, values)], set,
-/// mask, start)
+/// mask, start, rest)
 RecordedArrays arrays_of(const py::tuple& recording) {
   RecordedArrays arrays;
   arrays.element = recording[0].cast<std::string>();
@@ -58,6 +58,14 @@ RecordedArrays arrays_of(const py::tuple& recording) {
                         "a speed in rad/s or m/s"});
     arrays.masks.push_back({joint, speed, {"arrays", 0}});
   }
+  if (const std::string rest = to_name(recording[7], "rest"); rest == kRestRuleNames[1])
+    arrays.rest = RestRule::kBounds;
+  else if (rest != kRestRuleNames[0])
+    throw InputError({{"arrays", 0},
+                      arrays.element + ".rest",
+                      "no rule for samples at rest",
+                      rest,
+                      std::string(kRestRuleNames[0]) + ", " + kRestRuleNames[1]});
   for (const auto& [joint, position] : to_settings(recording[6].cast<py::dict>())) {
     StartPosition start{joint, FittedNumber(position)};
     start.position.where = {"arrays", 0};

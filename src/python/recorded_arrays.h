@@ -8,8 +8,8 @@
 namespace codesign::python {
 
 /// Recordings that Python gives, each as (name, time, [(joint, position, velocity, effort)],
-/// [(signal, values)], set, mask, start). @throws InputError for columns of another length than
-/// the times and masks that are not above zero; as to_numbers()
+/// [(signal, values)], set, mask, start, rest). @throws InputError for columns of another length
+/// than the times and masks that are not above zero; as to_numbers()
 RecordingArrays arrays_of(const pybind11::list& data, const pybind11::list& holdout);
 
 }  // namespace codesign::python

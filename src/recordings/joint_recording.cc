@@ -103,7 +103,10 @@ void add_masks(const RecordingDescription& description, JointRecording* recordin
       throw unknown_name(mask.where, description.element + ".mask.speed." + mask.joint,
                          "joint in " + recording->file, mask.joint, names);
     for (JointSamples& samples : recording->joints)
-      if (mask.joint.empty() || samples.joint == mask.joint) samples.least_speed = mask.speed;
+      if (mask.joint.empty() || samples.joint == mask.joint) {
+        samples.least_speed = mask.speed;
+        samples.has_bounds = description.rest == RestRule::kBounds;
+      }
   }
 }
 
@@ -280,7 +283,7 @@ JointRecording part_of(const JointRecording& recording, std::size_t begin, std::
   for (const JointSamples& samples : recording.joints)
     part.joints.push_back({samples.joint, cut(samples.position), cut(samples.velocity),
                            cut(samples.effort), samples.start, samples.is_prescribed,
-                           samples.least_speed});
+                           samples.least_speed, samples.has_bounds});
   for (const SignalSamples& samples : recording.signals)
     part.signals.push_back({samples.signal, cut(samples.values)});
   return part;

@@ -24,6 +24,7 @@ struct JointSamples {
   bool is_prescribed = false;  ///< not recorded, but computed from the study's `motion`
   /// samples at which the joint is slower do not count in its residuals [rad/s or m/s]
   double least_speed = 0.0;
+  bool has_bounds = false;  ///< slower samples count by bounds of their effort
 
   std::vector<double>& of(MeasuredQuantity quantity) {
     return quantity == MeasuredQuantity::kPosition   ? position

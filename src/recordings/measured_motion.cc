@@ -132,6 +132,7 @@ JointMotion motion_of(const JointSamples& samples, const std::vector<double>& ti
   if (!samples.effort.empty())
     motion.effort = resample(times, samples.effort, uniform, Resampling::kLinear);
   motion.least_speed = samples.least_speed;
+  motion.has_bounds = samples.has_bounds;
   return motion;
 }
 

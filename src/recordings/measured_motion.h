@@ -61,6 +61,7 @@ struct JointMotion {
   /// false: the position is the integral of the velocity from JointSamples::start
   bool position_measured = true;
   double least_speed = 0.0;  ///< JointSamples::least_speed
+  bool has_bounds = false;   ///< JointSamples::has_bounds
 };
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).

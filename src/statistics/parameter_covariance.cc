@@ -11,6 +11,7 @@
 
 #include "math/arrays.h"
 #include "math/dense.h"
+#include "statistics/kernel_moments.h"
 #include "statistics/time_series.h"
 
 namespace codesign {
@@ -56,99 +57,31 @@ Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& R, const Identifiability&
   return result;
 }
 
-/// The contribution of each piece to the error of the parameters, pieces x p, as the other pieces
-/// tell it, theory (43a): a piece with much of the information draws the fit, so that its residuals
-/// are too small.
-Eigen::MatrixXd contributions_of_pieces(const Eigen::MatrixXd& residuals,
-                                        const Eigen::MatrixXd& jacobian,
-                                        const Eigen::MatrixXd& root, const SeriesLengths& pieces) {
-  Eigen::MatrixXd result(to_signed(pieces.size()), root.rows());
-  Eigen::Index begin = 0;
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
-    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(root.cols(), root.cols());
-    Eigen::VectorXd scores = Eigen::VectorXd::Zero(root.cols());
-    for (Eigen::Index output = 0; output < residuals.cols(); ++output) {
-      const Eigen::MatrixXd rows =
-          jacobian.middleRows(output * residuals.rows() + begin, pieces[piece]) * root;
-      left -= transposed_product(rows, rows);
-      scores += rows.transpose() * residuals.col(output).segment(begin, pieces[piece]);
-    }
-    const SymmetricEigen eigen = symmetric_eigen(left);
-    const Eigen::VectorXd told =
-        (eigen.vectors.transpose() * scores).cwiseQuotient(eigen.values.cwiseMax(kLeastLeft));
-    result.row(to_signed(piece)) = (root * (eigen.vectors * told)).transpose();
-    begin += pieces[piece];
+/// What parts of the recordings contribute to the error of the parameters.
+struct Contributions {
+  Eigen::MatrixXd terms;  ///< parts x p
+  SeriesLengths parts;    ///< rows of each
+  SeriesLengths lengths;  ///< parts of each recording
+  /// kernel_moments()
+  std::vector<Eigen::MatrixXd> maps;
+};
+
+/// A fit with J = Q L^-1 on its rank: residuals, Q and L = root_of_inverse().
+struct LinearizedFit {
+  const Eigen::MatrixXd &residuals, &Q, &root;
+
+  /// Q_i^T r_i of rows from `begin` on.
+  Eigen::VectorXd scores(Eigen::Index begin, Eigen::Index count) const {
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(Q.cols());
+    for (Eigen::Index output = 0; output < residuals.cols(); ++output)
+      sum += block(output, begin, count).transpose() * residuals.col(output).segment(begin, count);
+    return sum;
   }
-  return result;
-}
-
-/// The contribution of each time to the error of the parameters, N x p: (J^T J)^-1 sum over outputs
-/// of J^T r.
-Eigen::MatrixXd contributions(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian,
-                              const Eigen::MatrixXd& inverse) {
-  Eigen::MatrixXd scores = Eigen::MatrixXd::Zero(residuals.rows(), jacobian.cols());
-  for (Eigen::Index output = 0; output < residuals.cols(); ++output)
-    scores += residuals.col(output).asDiagonal() *
-              jacobian.middleRows(output * residuals.rows(), residuals.rows());
-  return scores * inverse;
-}
-
-/// A lag in sums over times, in times.
-int in_times(int lag, Eigen::Index times, Eigen::Index sums) {
-  return static_cast<int>(
-      std::lround(lag * static_cast<double>(times) / static_cast<double>(sums)));
-}
-
-void set_symmetric_intervals(double level, ParameterCovariance* result) {
-  result->below = interval_factor(level, result->degrees) *
-                  result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
-  result->above = result->below;
-}
-
-void use_kernel(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
-                const IntervalOptions& options, ParameterCovariance* result) {
-  const LongRunCovariance estimate = long_run_covariance(terms, lengths, options.lag);
-  result->covariance = correction * estimate.covariance;
-  result->lag = estimate.lag;
-  result->degrees = std::min(result->degrees, estimate.degrees);
-  set_symmetric_intervals(options.level, result);
-}
-
-void use_independent(const Eigen::MatrixXd& terms, double correction,
-                     const IntervalOptions& options, ParameterCovariance* result) {
-  result->covariance = correction * (terms.transpose() * terms);
-  result->lag = 1;
-  set_symmetric_intervals(options.level, result);
-}
-
-// The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
-// their quantiles.
-void use_bootstrap(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
-                   const IntervalOptions& options, ParameterCovariance* result) {
-  result->lag = options.lag > 0 ? options.lag : automatic_lag(terms, lengths);
-  const Eigen::MatrixXd draws =
-      std::sqrt(correction) * bootstrap_sums(terms, lengths, result->lag, kDraws, kSeed);
-  result->covariance = draws.transpose() * draws / (kDraws - 1.0);
-  result->below.resize(draws.cols());
-  result->above.resize(draws.cols());
-  for (Eigen::Index k = 0; k < draws.cols(); ++k) {
-    result->below[k] = empirical_quantile(draws.col(k), 0.5 * (1.0 + options.level));
-    result->above[k] = -empirical_quantile(draws.col(k), 0.5 * (1.0 - options.level));
+  Eigen::Block<const Eigen::MatrixXd> block(Eigen::Index output, Eigen::Index begin,
+                                            Eigen::Index count) const {
+    return Q.block(output * residuals.rows() + begin, 0, count, Q.cols());
   }
-}
-
-/// The contributions of single times do not matter, only their sums over equal parts of so many
-/// times that the rate of the samples does not matter. A lag that is given counts times.
-/// @param correction of the covariance for degrees of freedom
-void use_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, double correction,
-              const IntervalOptions& options, ParameterCovariance* result) {
-  const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
-  if (options.lag > 0) return use(terms, lengths, correction, options, result);
-  const SummedSeries sums = sums_over(
-      terms, lengths, equal_parts(lengths, std::max<Eigen::Index>(1, terms.rows() / kSums)));
-  use(sums.terms, sums.lengths, correction, options, result);
-  result->lag = in_times(result->lag, terms.rows(), sums.terms.rows());
-}
+};
 
 /// Number of pieces of each recording.
 SeriesLengths pieces_of_each(const SeriesLengths& lengths, const SeriesLengths& pieces) {
@@ -158,21 +91,131 @@ SeriesLengths pieces_of_each(const SeriesLengths& lengths, const SeriesLengths& 
       .lengths;
 }
 
-/// Sums over pieces with unknowns of their own, to which each contribution of a piece is tied.
-void use_pieces(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& jacobian,
-                const Eigen::MatrixXd& root, const SeriesLengths& lengths,
-                const SeriesLengths& pieces, const IntervalOptions& options,
+/// Sums over parts of (J^T J)^-1 J^T r.
+Contributions contributions_of_parts(const LinearizedFit& fit, const SeriesLengths& lengths,
+                                     const SeriesLengths& parts) {
+  Contributions result{Eigen::MatrixXd(to_signed(parts.size()), fit.root.rows()),
+                       parts,
+                       pieces_of_each(lengths, parts),
+                       {fit.root.transpose()}};
+  Eigen::Index begin = 0;
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    result.terms.row(to_signed(part)) = (fit.root * fit.scores(begin, parts[part])).transpose();
+    begin += parts[part];
+  }
+  return result;
+}
+
+/// The contribution of each piece as the other pieces tell it, theory (43a): a piece with much of
+/// the information draws the fit, so that its residuals are too small.
+Contributions contributions_of_pieces(const LinearizedFit& fit, const SeriesLengths& lengths,
+                                      const SeriesLengths& pieces) {
+  Contributions result{Eigen::MatrixXd(to_signed(pieces.size()), fit.root.rows()),
+                       pieces,
+                       pieces_of_each(lengths, pieces),
+                       {}};
+  Eigen::Index begin = 0;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    Eigen::MatrixXd left = Eigen::MatrixXd::Identity(fit.Q.cols(), fit.Q.cols());
+    for (Eigen::Index output = 0; output < fit.residuals.cols(); ++output) {
+      const Eigen::MatrixXd rows = fit.block(output, begin, pieces[piece]);
+      left -= transposed_product(rows, rows);
+    }
+    const SymmetricEigen eigen = symmetric_eigen(left);
+    result.maps.emplace_back(eigen.vectors *
+                             eigen.values.cwiseMax(kLeastLeft).cwiseInverse().asDiagonal() *
+                             (eigen.vectors.transpose() * fit.root.transpose()));
+    result.terms.row(to_signed(piece)) =
+        fit.scores(begin, pieces[piece]).transpose() * result.maps.back();
+    begin += pieces[piece];
+  }
+  return result;
+}
+
+/// A lag in sums over times, in times.
+int in_times(int lag, Eigen::Index times, Eigen::Index sums) {
+  return static_cast<int>(
+      std::lround(lag * static_cast<double>(times) / static_cast<double>(sums)));
+}
+
+void set_symmetric_intervals(double level, ParameterCovariance* result) {
+  result->below = result->covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+  for (Eigen::Index k = 0; k < result->below.size(); ++k)
+    result->below[k] *= interval_factor(level, result->degrees[k]);
+  result->above = result->below;
+}
+
+/// Sets the degrees of freedom of an estimate by this lag. @return the factor of each deviation
+/// with which the estimate has the right mean if the noise is white
+Eigen::VectorXd correct_by_moments(const LinearizedFit& fit, const Contributions& of, int lag,
+                                   ParameterCovariance* result) {
+  const KernelMoments moments =
+      kernel_moments(fit.Q, fit.residuals.cols(), of.parts, of.lengths, lag, of.maps);
+  result->degrees = result->degrees.cwiseMin(moments.degrees);
+  Eigen::VectorXd factors = Eigen::VectorXd::Ones(moments.means.size());
+  for (Eigen::Index k = 0; k < factors.size(); ++k)
+    if (moments.means[k] > 0.0)
+      factors[k] = std::sqrt(fit.root.row(k).squaredNorm() / moments.means[k]);
+  return factors;
+}
+
+void use_kernel(const LinearizedFit& fit, const Contributions& of, const IntervalOptions& options,
                 ParameterCovariance* result) {
-  const auto count = static_cast<double>(pieces.size());
-  const Eigen::MatrixXd terms = contributions_of_pieces(residuals, jacobian, root, pieces);
-  result->degrees = count - 1.0;
-  if (options.noise == NoiseModel::kBootstrap)
-    use_bootstrap(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
-  else if (to_signed(pieces.size()) >= kPiecesOfKernel)
-    use_kernel(terms, pieces_of_each(lengths, pieces), result->degrees / count, options, result);
-  else
-    use_independent(terms, result->degrees / count, options, result);
-  result->lag = in_times(result->lag, residuals.rows(), to_signed(pieces.size()));
+  const LongRunCovariance estimate = long_run_covariance(of.terms, of.lengths, options.lag);
+  const Eigen::VectorXd factors = correct_by_moments(fit, of, estimate.lag, result);
+  result->covariance = factors.asDiagonal() * estimate.covariance * factors.asDiagonal();
+  result->lag = estimate.lag;
+  set_symmetric_intervals(options.level, result);
+}
+
+void use_independent(const LinearizedFit& fit, const Contributions& of,
+                     const IntervalOptions& options, ParameterCovariance* result) {
+  const Eigen::MatrixXd terms = of.terms * correct_by_moments(fit, of, 0, result).asDiagonal();
+  result->covariance = terms.transpose() * terms;
+  result->lag = 1;
+  set_symmetric_intervals(options.level, result);
+}
+
+// The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
+// their quantiles. The variance of sums of blocks is that of the kernel as wide as a block.
+void use_bootstrap(const LinearizedFit& fit, const Contributions& of,
+                   const IntervalOptions& options, ParameterCovariance* result) {
+  result->lag = options.lag > 0 ? options.lag : automatic_lag(of.terms, of.lengths);
+  const Eigen::VectorXd factors = correct_by_moments(fit, of, result->lag - 1, result);
+  const Eigen::MatrixXd draws =
+      bootstrap_sums(of.terms, of.lengths, result->lag, kDraws, kSeed) * factors.asDiagonal();
+  result->covariance = draws.transpose() * draws / (kDraws - 1.0);
+  result->below.resize(draws.cols());
+  result->above.resize(draws.cols());
+  for (Eigen::Index k = 0; k < draws.cols(); ++k) {
+    const double wider = interval_factor(options.level, result->degrees[k]) /
+                         interval_factor(options.level, kInfinite);
+    result->below[k] = wider * empirical_quantile(draws.col(k), 0.5 * (1.0 + options.level));
+    result->above[k] = -wider * empirical_quantile(draws.col(k), 0.5 * (1.0 - options.level));
+  }
+}
+
+/// The contributions of single times do not matter, only their sums over equal parts of so many
+/// times that the rate of the samples does not matter. A lag that is given counts times.
+void use_sums(const LinearizedFit& fit, const SeriesLengths& lengths,
+              const IntervalOptions& options, ParameterCovariance* result) {
+  const Eigen::Index times = fit.residuals.rows(),
+                     size = options.lag > 0 ? 1 : std::max<Eigen::Index>(1, times / kSums);
+  const Contributions sums = contributions_of_parts(fit, lengths, equal_parts(lengths, size));
+  const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
+  use(fit, sums, options, result);
+  result->lag = in_times(result->lag, times, sums.terms.rows());
+}
+
+/// Sums over pieces with unknowns of their own, to which each contribution of a piece is tied.
+void use_pieces(const LinearizedFit& fit, const SeriesLengths& lengths, const SeriesLengths& pieces,
+                const IntervalOptions& options, ParameterCovariance* result) {
+  const Contributions sums = contributions_of_pieces(fit, lengths, pieces);
+  auto use = use_bootstrap;
+  if (options.noise == NoiseModel::kCorrelated)
+    use = to_signed(pieces.size()) >= kPiecesOfKernel ? use_kernel : use_independent;
+  use(fit, sums, options, result);
+  result->lag = in_times(result->lag, fit.residuals.rows(), to_signed(pieces.size()));
 }
 
 /// With the dependent parameters held, an independent one stands for its combination with them.
@@ -214,7 +257,8 @@ ParameterCovariance predicted_covariance(const Eigen::MatrixXd& jacobian, Eigen:
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
-  result.degrees = std::max(1.0, static_cast<double>(rows - result.identifiability.rank));
+  result.degrees.setConstant(
+      jacobian.cols(), std::max(1.0, static_cast<double>(rows - result.identifiability.rank)));
   result.residual_variance = 1.0;
   const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability);
   result.covariance = root * root.transpose();
@@ -233,18 +277,20 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
   result.identifiability = find_identifiable(R);
   const auto rows = static_cast<double>(residuals.size() - eliminated.left_out);
   const Eigen::Index rank = result.identifiability.rank;
-  result.degrees = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
-  result.residual_variance = residuals.squaredNorm() / result.degrees;
-  const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability),
-                        inverse = root * root.transpose();
+  const double left = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
+  result.degrees.setConstant(jacobian.cols(), left);
+  result.residual_variance = residuals.squaredNorm() / left;
+  const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {
-    result.covariance = result.residual_variance * inverse;
+    result.covariance = result.residual_variance * root * root.transpose();
     set_symmetric_intervals(options.level, &result);
-  } else if (options.lag == 0 && to_signed(eliminated.pieces.size()) - rank >= kLeastDegrees) {
-    use_pieces(residuals, jacobian, root, lengths, eliminated.pieces, options, &result);
   } else {
-    use_sums(contributions(residuals, jacobian, inverse), lengths, rows / result.degrees, options,
-             &result);
+    const Eigen::MatrixXd Q = jacobian * root;
+    const LinearizedFit fit{residuals, Q, root};
+    if (options.lag == 0 && to_signed(eliminated.pieces.size()) - rank >= kLeastDegrees)
+      use_pieces(fit, lengths, eliminated.pieces, options, &result);
+    else
+      use_sums(fit, lengths, options, &result);
   }
   mark_undetermined(&result);
   return result;

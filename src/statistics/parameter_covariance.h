@@ -25,7 +25,7 @@ struct ParameterCovariance {
   Eigen::VectorXd combination_deviation, combination_below, combination_above;
   /// sum of squares divided by (rows - rank), in squared units of the residuals
   double residual_variance = 0.0;
-  double degrees = 0.0;  ///< degrees of freedom of Student's t in the intervals
+  Eigen::VectorXd degrees;  ///< of freedom of Student's t in the interval of each parameter
   int lag = 0;  ///< lag of the kernel, or number of neighbours in a block; 0 for white noise
 
   /// p x p, ones on the diagonal; NaN where the covariance is NaN.

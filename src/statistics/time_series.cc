@@ -14,35 +14,75 @@ namespace {
 // Andrews and Monahan: nearer to one, the recolored variance has no finite variance of its own.
 constexpr double kMostCorrelated = 0.97;
 
-/// Slope of x_t over x_{t-1}, per column.
-Eigen::VectorXd autoregression(const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
-  Eigen::VectorXd products = Eigen::VectorXd::Zero(terms.cols()), squares = products;
+/// The autoregression of order one or two of each column, x_t = first x_{t-1} + second x_{t-2} +
+/// innovation, by partial correlations (Levinson and Durbin).
+struct Autoregression {
+  Eigen::VectorXd partial_first, partial_second;  ///< magnitude at most kMostCorrelated
+  Eigen::VectorXd first, second;                  ///< sum at most kMostCorrelated
+};
+
+/// sum_t x_t x_{t-lag} within each series, per column.
+Eigen::VectorXd products_at(int lag, const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(terms.cols());
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    const auto before = terms.middleRows(begin, length - 1),
-               after = terms.middleRows(begin + 1, length - 1);
-    products += (before.array() * after.array()).colwise().sum().matrix().transpose();
-    squares += before.colwise().squaredNorm().transpose();
+    const Eigen::Index pairs = std::max<Eigen::Index>(0, length - lag);
+    products += (terms.middleRows(begin, pairs).array() *
+                 terms.middleRows(begin + length - pairs, pairs).array())
+                    .colwise()
+                    .sum()
+                    .matrix()
+                    .transpose();
     begin += length;
   }
-  Eigen::VectorXd slopes(terms.cols());
-  for (Eigen::Index k = 0; k < slopes.size(); ++k)
-    slopes[k] = squares[k] > 0.0
-                    ? std::clamp(products[k] / squares[k], -kMostCorrelated, kMostCorrelated)
-                    : 0.0;
-  return slopes;
+  return products;
 }
 
-/// x_t - slope x_{t-1}; the first row of a series, which has no predecessor, is scaled to the same
+double clamped(double correlation) {
+  return std::clamp(correlation, -kMostCorrelated, kMostCorrelated);
+}
+
+Autoregression autoregression(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                              int order) {
+  const Eigen::VectorXd squares = products_at(0, terms, lengths),
+                        one = products_at(1, terms, lengths), two = products_at(2, terms, lengths);
+  Autoregression result;
+  for (Eigen::VectorXd* each :
+       {&result.partial_first, &result.partial_second, &result.first, &result.second})
+    each->setZero(terms.cols());
+  for (Eigen::Index k = 0; k < terms.cols(); ++k) {
+    if (!(squares[k] > 0.0)) continue;
+    const double p = clamped(one[k] / squares[k]),
+                 q = order > 1 ? clamped((two[k] / squares[k] - p * p) / (1.0 - p * p)) : 0.0;
+    const double scale = std::min(1.0, kMostCorrelated / std::max(p * (1.0 - q) + q, 1e-9));
+    result.partial_first[k] = p;
+    result.partial_second[k] = q;
+    result.first[k] = scale * p * (1.0 - q);
+    result.second[k] = scale * q;
+  }
+  return result;
+}
+
+/// The innovations; those of the first two rows, which lack predecessors, are scaled to the same
 /// variance.
 Eigen::MatrixXd whitened(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
-                         const Eigen::VectorXd& slopes) {
+                         const Autoregression& by) {
   Eigen::MatrixXd result = terms;
+  const auto part = [](const Eigen::VectorXd& partial) {
+    return (1.0 - partial.array().square()).sqrt().matrix().asDiagonal();
+  };
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    result.middleRows(begin + 1, length - 1) -=
-        terms.middleRows(begin, length - 1) * slopes.asDiagonal();
-    result.row(begin) *= (1.0 - slopes.array().square()).sqrt().matrix().asDiagonal();
+    const Eigen::Index rest = std::max<Eigen::Index>(0, length - 2);
+    result.middleRows(begin + length - rest, rest) -=
+        terms.middleRows(begin + 1, rest) * by.first.asDiagonal() +
+        terms.middleRows(begin, rest) * by.second.asDiagonal();
+    if (length > 1) {
+      result.row(begin + 1) -= terms.row(begin) * by.partial_first.asDiagonal();
+      result.row(begin + 1) *= part(by.partial_second);
+    }
+    result.row(begin) *= part(by.partial_first);
+    result.row(begin) *= part(by.partial_second);
     begin += length;
   }
   return result;
@@ -111,7 +151,7 @@ SeriesLengths equal_parts(const SeriesLengths& lengths, Eigen::Index size) {
 int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths) {
   const auto rows = static_cast<double>(terms.rows());
   double lag = 1.3 * std::sqrt(rows);
-  for (const double slope : autoregression(terms, lengths)) {
+  for (const double slope : autoregression(terms, lengths, 1).partial_first) {
     const double alpha = std::pow(2.0 * slope / (1.0 - slope * slope), 2.0);
     lag = std::max(lag, 1.1447 * std::cbrt(alpha * rows));
   }
@@ -138,20 +178,42 @@ Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& 
   return sum / (lag + 1.0);
 }
 
+// Sums over windows that end at a row, then over windows that begin there.
+Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                                 int lag) {
+  Eigen::MatrixXd result(terms.rows(), terms.cols());
+  Eigen::Index begin = 0;
+  for (const Eigen::Index length : lengths) {
+    const Eigen::MatrixXd sums = running_sums(terms, begin, length);
+    Eigen::RowVectorXd both = Eigen::RowVectorXd::Zero(terms.cols());
+    const auto window = [&](Eigen::Index end) {
+      return sums.row(std::min(end + 1, length)) - sums.row(std::max<Eigen::Index>(end - lag, 0));
+    };
+    for (Eigen::Index end = 0; end < lag; ++end) both += window(end);
+    for (Eigen::Index k = 0; k < length; ++k) {
+      both += window(k + lag);
+      result.row(begin + k) = both / (lag + 1.0);
+      both -= window(k);
+    }
+    begin += length;
+  }
+  return result;
+}
+
 LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
                                       int lag) {
-  const Eigen::VectorXd slopes = autoregression(terms, lengths);
-  const Eigen::MatrixXd innovations = whitened(terms, lengths, slopes);
   LongRunCovariance result;
-  result.lag = lag > 0 ? capped(lag, terms.rows()) : automatic_lag(innovations, lengths);
-  const Eigen::VectorXd recolor = (1.0 - slopes.array()).inverse();
-  result.covariance =
-      recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) * recolor.asDiagonal();
-  // Fixed-b asymptotics for kernels whose width is the fraction b of the sample: mean and degrees
-  // of freedom of the estimate.
-  const double b = (result.lag + 1.0) / static_cast<double>(terms.rows());
-  result.covariance /= 1.0 - b + b * b / 3.0;
-  result.degrees = 1.5 / b;
+  result.covariance.setZero(terms.cols(), terms.cols());
+  constexpr int kOrders = 2;
+  for (int order = 1; order <= kOrders; ++order) {
+    const Autoregression by = autoregression(terms, lengths, order);
+    const Eigen::MatrixXd innovations = whitened(terms, lengths, by);
+    if (order == 1)
+      result.lag = lag > 0 ? capped(lag, terms.rows()) : automatic_lag(innovations, lengths);
+    const Eigen::VectorXd recolor = (1.0 - by.first.array() - by.second.array()).inverse();
+    result.covariance += recolor.asDiagonal() * bartlett_sum(innovations, lengths, result.lag) *
+                         recolor.asDiagonal() / kOrders;
+  }
   return result;
 }
 

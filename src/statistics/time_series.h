@@ -29,12 +29,12 @@ SeriesLengths equal_parts(const SeriesLengths& lengths, Eigen::Index size);
 struct LongRunCovariance {
   Eigen::MatrixXd covariance;  ///< p x p
   int lag = 0;                 ///< lag of the kernel
-  double degrees = 0.0;        ///< equivalent degrees of freedom of each variance, for Student's t
 };
 
 /// The covariance of the sums over all rows of `terms` (p columns of mean about zero), as Newey and
-/// West estimate it, on terms made less correlated by one autoregression of order one per column;
-/// doc/theory.md (34), (35). Never negative. Terms of different series are taken as independent.
+/// West estimate it, on terms made less correlated by an autoregression per column, the mean of
+/// orders one and two; doc/theory.md (34), (35). Never negative. Terms of different series are
+/// taken as independent.
 /// @param lag of the Bartlett kernel; 0: automatic, automatic_lag(). At most a quarter of the rows
 /// is used.
 LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
@@ -47,6 +47,10 @@ int automatic_lag(const Eigen::MatrixXd& terms, const SeriesLengths& lengths);
 /// sum_|l| <= lag (1 - |l| / (lag + 1)) Gamma_l with Gamma_l = sum_t x_t x_{t-l}^T over all t of
 /// each series: the plain estimate.
 Eigen::MatrixXd bartlett_sum(const Eigen::MatrixXd& terms, const SeriesLengths& lengths, int lag);
+
+/// W x with the weights W of the same kernel, so that bartlett_sum() is x^T W x.
+Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
+                                 int lag);
 
 /// Draws sums with as many terms as `terms` has rows, in blocks of neighbours (Kuensch's moving
 /// blocks), minus their mean; doc/theory.md (36). Blocks do not cross from one series to the next.

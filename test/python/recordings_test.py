@@ -76,6 +76,19 @@ class Recordings(unittest.TestCase):
         with self.assertRaisesRegex(codesign.InputError, r"arrays\.mask.*no sample is left out"):
             codesign.Problem(ARM, FIT + "identify: {residual: motion}\n").identify(codesign.Recording(t, q, wrong, mask=0.25))
 
+    def test_a_mask_with_bounds(self):
+        """Of efforts at rest those count that no friction explains."""
+        t, q, effort = recorded()
+        slow = np.abs(np.gradient(q, t)) < 0.2
+        problem = codesign.Problem(ARM, FIT)
+        right = problem.identify(codesign.Recording(t, q, effort, mask=0.25, rest="bounds"))
+        self.assertAlmostEqual(right.numbers["mass"].value, 2.0, delta=1e-3)
+        self.assertLess(right.record["data"]["joints"]["shoulder"]["counted"], 0.95)
+        wrong = problem.identify(codesign.Recording(t, q, np.where(slow, effort + 3.0, effort), mask=0.25, rest="bounds"))
+        self.assertGreater(abs(wrong.numbers["mass"].value - 2.0), 0.01)
+        with self.assertRaisesRegex(codesign.InputError, "leave_out, bounds"):
+            problem.identify(codesign.Recording(t, q, effort, mask=0.25, rest="bound"))
+
     def test_a_force_in_place_of_an_effort(self):
         """Of a pendulum at 0.5 m the force along the rod is m (g cos q + 0.5 v^2)."""
         t, q, _ = recorded()

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 """The shipped cases that make their own recordings, with the commands of doc/case_studies.md. Usage: identify_cases_test.py CODESIGN"""
+import cmath
 import csv
 import json
 import math
@@ -120,6 +121,76 @@ class SimulateSensors(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn("a/velocity, a/effort", done.stderr)
             self.assertFalse(os.path.exists(self.recording))
+
+
+HOPPER = """<robot name="hopper" xmlns:codesign="urn:mechanism_codesign">
+  <codesign:parameter name="trunk_mass" value="6" lower="0.1" upper="50"/><codesign:parameter name="trunk_inertia" value="0.2" lower="0.01" upper="10"/>
+  <codesign:parameter name="leg_mass" value="1.5" lower="0.1" upper="50"/><codesign:parameter name="leg_centre" value="0.15" lower="0" upper="1"/>
+  <link name="world"/><link name="sliding"/><link name="lifting"/>
+  <link name="trunk"><inertial><origin xyz="0 0 0.1"/><mass value="6" codesign:value="${trunk_mass}"/>
+    <inertia ixx="0.2" ixy="0" ixz="0" iyy="0.2" codesign:iyy="${trunk_inertia}" iyz="0" izz="0.2"/></inertial></link>
+  <link name="leg"><inertial><origin xyz="0 0 -0.15" codesign:xyz="0 0 ${-leg_centre}"/><mass value="1.5" codesign:value="${leg_mass}"/>
+    <inertia ixx="0.03" ixy="0" ixz="0" iyy="0.03" iyz="0" izz="0.002"/></inertial></link>
+  <joint name="x" type="prismatic"><parent link="world"/><child link="sliding"/><axis xyz="1 0 0"/><limit lower="-2" upper="2" effort="1000" velocity="10"/></joint>
+  <joint name="z" type="prismatic"><parent link="sliding"/><child link="lifting"/><axis xyz="0 0 1"/><limit lower="-2" upper="2" effort="1000" velocity="10"/></joint>
+  <joint name="pitch" type="continuous"><parent link="lifting"/><child link="trunk"/><axis xyz="0 1 0"/></joint>
+  <joint name="hip" type="continuous"><parent link="trunk"/><child link="leg"/><axis xyz="0 1 0"/></joint>
+</robot>"""
+PLATE = """identify:
+  data:
+    - csv: plate.csv
+      columns: {time: time, x/position: x, z/position: z, pitch/position: pitch, hip/position: hip}
+      signals: {mechanism/shaking_force/x: fx, "${mechanism/shaking_force/z - 9.81*(trunk_mass + leg_mass)}": fz, mechanism/shaking_moment/y: my}
+parameters: {trunk_mass: {}, leg_mass: {}, leg_centre: {}, trunk_inertia: {}}
+"""
+
+
+class Hopper:
+    """A trunk that moves freely in a plane, with a leg: what it exerts on the ground, from linear and angular momentum in closed form."""
+
+    truth = {"trunk_mass": 8.0, "leg_mass": 2.2, "leg_centre": 0.21, "trunk_inertia": 0.35}
+
+    @staticmethod
+    def motion(t):
+        return 0.1 * cmath.sin(2.1 * t), 0.6 + 0.05 * cmath.sin(5.3 * t), 0.4 * cmath.sin(3.1 * t + 0.3), 0.9 * cmath.sin(4.7 * t + 1)
+
+    def momentum(self, t):
+        """Along x and z, and about the y through the origin; velocities by a complex step in time."""
+        step = 1e-20
+        x, z, pitch, hip = self.motion(t + 1j * step)
+        leg = pitch + hip
+        parts = ((self.truth["trunk_mass"], self.truth["trunk_inertia"], x + 0.1 * cmath.sin(pitch), z + 0.1 * cmath.cos(pitch), pitch),
+                 (self.truth["leg_mass"], 0.03, x - self.truth["leg_centre"] * cmath.sin(leg), z - self.truth["leg_centre"] * cmath.cos(leg), leg))
+        along_x = sum(mass * cx.imag for mass, _, cx, _, _ in parts) / step
+        along_z = sum(mass * cz.imag for mass, _, _, cz, _ in parts) / step
+        about_y = sum(inertia * turn.imag + mass * (cz.real * cx.imag - cx.real * cz.imag) for mass, inertia, cx, cz, turn in parts) / step
+        return along_x, along_z, about_y
+
+    def wrench(self, t, step=1e-3):
+        """The opposite of the rate of momentum, and the weight."""
+        weights = ((1, 4 / 5), (2, -1 / 5), (3, 4 / 105), (4, -1 / 280))
+        rates = [sum(w * (self.momentum(t + k * step)[i] - self.momentum(t - k * step)[i]) for k, w in weights) / step for i in range(3)]
+        return -rates[0], -rates[1] - 9.81 * (self.truth["trunk_mass"] + self.truth["leg_mass"]), -rates[2]
+
+
+class Plate(unittest.TestCase):
+    def test_a_floating_base_on_a_force_plate(self):
+        hopper = Hopper()
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in (("hopper.urdf", HOPPER), ("plate.yaml", PLATE)):
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+            with open(os.path.join(folder, "plate.csv"), "w", newline="", encoding="utf-8") as file:
+                rows = csv.writer(file)
+                rows.writerow(["time", "x", "z", "pitch", "hip", "fx", "fz", "my"])
+                for k in range(801):
+                    t = 0.005 * k
+                    rows.writerow([t, *(value.real for value in hopper.motion(t)), *hopper.wrench(t)])
+            done = run(["codesign", "identify", "hopper.urdf", "plate.yaml", "--json", "--quiet"], folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(done.stdout)["identified"]
+        for name, truth in hopper.truth.items():
+            self.assertLess(abs(found[name]["value"] / truth - 1.0), 1e-5, name)
 
 
 if __name__ == "__main__":

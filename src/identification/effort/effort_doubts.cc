@@ -71,6 +71,7 @@ std::vector<MeasuredMotion> thinned_motions(const std::vector<JointRecording>& r
   std::vector<MeasuredMotion> motions;
   for (const JointRecording& recording : recordings) {
     motions.push_back(measured_motion(recording, filter, &known_warnings));
+    for (JointMotion& joint : motions.back().joints) joint.has_bounds = false;
     if (is_thinned)
       motions.back().every = std::max<Eigen::Index>(1, motions.back().fitted() / kSamples);
   }

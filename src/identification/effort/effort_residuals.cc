@@ -38,7 +38,8 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
   std::vector<bool> with_effort;
   with_effort.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
-  model_ = std::make_unique<EffortModel>(system, std::move(joints), samples_of_all(names), threads,
+  bounds_ = std::make_unique<RestBounds>(bounds_of(samples_of_all(names), names));
+  model_ = std::make_unique<EffortModel>(system, std::move(joints), bounds_->samples(), threads,
                                          signals_);
   const std::vector<int>& drives = model_->driven().drives;
   for (std::size_t k = 0; k < drives.size(); ++k) {
@@ -116,6 +117,20 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
   return samples;
 }
 
+RestBounds EffortResiduals::bounds_of(const MotionSamples& samples,
+                                      const std::vector<std::string>& joints) const {
+  Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(samples.velocity.rows(), samples.velocity.cols());
+  for (std::size_t r = 0; r < recordings_.size(); ++r)
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      const JointMotion& motion = motion_of(recordings_[r], joints[j]);
+      if (!motion.has_bounds || motion.effort.size() == 0) continue;
+      for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k)
+        if (std::abs(samples.velocity(to_signed(j), k)) < motion.least_speed)
+          speeds(to_signed(j), k) = motion.least_speed;
+    }
+  return RestBounds(samples, speeds);
+}
+
 std::vector<double> EffortResiduals::times() const {
   std::vector<double> times;
   for (const MeasuredMotion& motion : recordings_)
@@ -131,14 +146,16 @@ double EffortResiduals::time(std::size_t recording, Eigen::Index sample) const {
 }
 
 void EffortResiduals::fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x,
-                           bool with_slopes, Eigen::MatrixXd* columns) const {
+                           bool with_slopes,
+                           const std::function<Eigen::Index(Eigen::Index)>& at_sample,
+                           Eigen::MatrixXd* columns) const {
   const EffortSensor sensor = variables_.sensor(outputs_[output], x);
   const FitVariables::SensorColumns at = variables_.columns(outputs_[output]);
   const Eigen::Index drives = model_efforts_.rows(), drive = drives_[output],
                      count = begins_[recording + 1] - begins_[recording];
   columns->setZero(count, with_slopes ? 1 + x.size() : 1);
   for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::Index sample = begins_[recording] + k;
+    const Eigen::Index sample = at_sample(begins_[recording] + k);
     const EffortResidual residual = effort_residual(
         sensor, efforts_[recording][output], time(recording, k), model_efforts_(drive, sample));
     (*columns)(k, 0) = residual.value;
@@ -165,6 +182,35 @@ Eigen::MatrixXd EffortResiduals::fitted(std::size_t recording, Eigen::MatrixXd* 
   Eigen::MatrixXd kept(motion.fitted(), columns->cols());
   for (Eigen::Index k = 0; k < kept.rows(); ++k)
     kept.row(k) = columns->row(motion.first + k * motion.every);
+  return kept;
+}
+
+bool EffortResiduals::is_bounded(std::size_t recording, std::size_t output) const {
+  if (output >= outputs_.size() - signals_.size()) return false;
+  const JointMotion& joint = motion_of(recordings_[recording], outputs_[output]);
+  return joint.has_bounds && joint.least_speed > 0.0;
+}
+
+// Both bounds pass the filter before the nearer one is taken: the noise of the recorded effort at
+// rest, less what the filter removes of it, does not widen the bounds.
+Eigen::MatrixXd EffortResiduals::rows_of(std::size_t recording, std::size_t output,
+                                         const Eigen::VectorXd& x, bool with_slopes) const {
+  Eigen::MatrixXd columns;
+  if (!is_bounded(recording, output)) {
+    fill(
+        recording, output, x, with_slopes,
+        [this](Eigen::Index sample) { return bounds_->place(sample); }, &columns);
+    return counted_of(recording, output, &columns);
+  }
+  const Eigen::Index joint = model_->driven().drives[to_index(drives_[output])];
+  const auto bound = [&](bool is_forward) {
+    fill(
+        recording, output, x, with_slopes,
+        [&](Eigen::Index sample) { return bounds_->bound(joint, sample, is_forward); }, &columns);
+    return fitted(recording, &columns);
+  };
+  Eigen::MatrixXd kept = bound(false);
+  take_nearer_bound(bound(true), &kept);
   return kept;
 }
 
@@ -273,12 +319,10 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
   residuals->resize(rows_, outputs);
   if (jacobian) jacobian->resize(rows_ * outputs, x.size());
   Eigen::Index row = 0;
-  Eigen::MatrixXd columns;
   for (std::size_t r = 0; r < recordings_.size(); ++r) {
     for (std::size_t o = 0; o < outputs_.size(); ++o) {
       const auto output = to_signed(o);
-      fill(r, o, x, jacobian != nullptr, &columns);
-      const Eigen::MatrixXd kept = counted_of(r, o, &columns);
+      const Eigen::MatrixXd kept = rows_of(r, o, x, jacobian != nullptr);
       residuals->col(output).segment(row, lengths_[r]) = kept.col(0);
       if (jacobian)
         jacobian->middleRows(output * rows_ + row, lengths_[r]) = kept.rightCols(x.size());
@@ -291,12 +335,13 @@ Status EffortResiduals::evaluate(const Eigen::VectorXd& x, Eigen::MatrixXd* resi
 
 void EffortResiduals::motion_of_outputs(Eigen::MatrixXd* velocity,
                                         Eigen::MatrixXd* acceleration) const {
-  velocity->resize(model_->samples(), to_signed(outputs_.size()));
+  velocity->resize(begins_.back(), to_signed(outputs_.size()));
   acceleration->resizeLike(*velocity);
-  for (std::size_t o = 0; o < outputs_.size(); ++o) {
-    velocity->col(to_signed(o)) = model_->velocity().row(drives_[o]);
-    acceleration->col(to_signed(o)) = model_->acceleration().row(drives_[o]);
-  }
+  for (Eigen::Index k = 0; k < begins_.back(); ++k)
+    for (std::size_t o = 0; o < outputs_.size(); ++o) {
+      (*velocity)(k, to_signed(o)) = model_->velocity()(drives_[o], bounds_->place(k));
+      (*acceleration)(k, to_signed(o)) = model_->acceleration()(drives_[o], bounds_->place(k));
+    }
 }
 
 // The slope of the computed effort serves as a column without noise: it is independent of the noise
@@ -322,7 +367,7 @@ std::vector<DelaySignal> EffortResiduals::delay_signals(const Eigen::VectorXd& x
           motion.times.step * static_cast<double>(filter_.residual_cutoff > 0.0 ? 1 : motion.every);
       Eigen::MatrixXd columns(begins_[r + 1] - begins_[r], 2);
       for (Eigen::Index k = 0; k < columns.rows(); ++k) {
-        const double effort = model_efforts_(drives_[o], begins_[r] + k);
+        const double effort = model_efforts_(drives_[o], bounds_->place(begins_[r] + k));
         const EffortResidual residual = effort_residual(sensor, efforts_[r][o], time(r, k), effort);
         columns(k, 0) = residual.by_effort * (effort + sensor.offset);
         columns(k, 1) = -residual.by_delay;

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "identification/effort/compared_recordings.h"
 #include "identification/effort/effort_model.h"
+#include "identification/effort/rest_bounds.h"
 #include "identification/fit/fit_variables.h"
 #include "identification/fit/residual_source.h"
 #include "recordings/measured_motion.h"
@@ -20,7 +22,8 @@ namespace codesign {
 /// doc/theory.md (28c), then signals, at the samples to fit, and their exact derivatives. If
 /// FilterOptions::residual_cutoff is set, both pass the same zero-phase filter. Samples at which a
 /// joint is slower than its JointSamples::least_speed are zero before the filter and behind it, so
-/// that the filter spreads nothing of what friction at rest does.
+/// that the filter spreads nothing of what friction at rest does. With JointSamples::has_bounds
+/// they are the distance from the efforts between which friction at rest is, zero within, (28d).
 class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
@@ -60,6 +63,8 @@ class EffortResiduals final : public RecordingResiduals {
 
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);
+  /// The samples at which joints rest between bounds.
+  RestBounds bounds_of(const MotionSamples& samples, const std::vector<std::string>& joints) const;
   /// The shift of each joint whose start is fitted: its start in x minus the start from which its
   /// positions were integrated; shifted joints x recordings [rad or m].
   Eigen::MatrixXd shifts(const Eigen::VectorXd& x) const;
@@ -68,9 +73,12 @@ class EffortResiduals final : public RecordingResiduals {
   Status place(const Eigen::VectorXd& x);
   double time(std::size_t recording, Eigen::Index sample) const;
   /// Sets the first column of `columns` to the residual of an output, the other columns to its
-  /// derivatives; one row per sample of the model.
+  /// derivatives; one row per sample of the motion. @param at the model's sample for each
   void fill(std::size_t recording, std::size_t output, const Eigen::VectorXd& x, bool with_slopes,
-            Eigen::MatrixXd* columns) const;
+            const std::function<Eigen::Index(Eigen::Index)>& at, Eigen::MatrixXd* columns) const;
+  /// The rows to fit of an output, filtered.
+  Eigen::MatrixXd rows_of(std::size_t recording, std::size_t output, const Eigen::VectorXd& x,
+                          bool with_slopes) const;
   /// Sets columns of starts to zero that hold only rounding errors, so that they do not seem
   /// independent of all others.
   void clear_starts_without_effect(Eigen::MatrixXd* jacobian) const;
@@ -79,7 +87,9 @@ class EffortResiduals final : public RecordingResiduals {
   /// The same of residuals: zero where samples do not count.
   Eigen::MatrixXd counted_of(std::size_t recording, std::size_t output,
                              Eigen::MatrixXd* columns) const;
-  /// Whether a sample of the model counts.
+  /// Whether an output is the effort of a joint whose rests lie between bounds.
+  bool is_bounded(std::size_t recording, std::size_t output) const;
+  /// Whether a sample of the motion counts.
   bool counts(std::size_t recording, std::size_t output, Eigen::Index sample) const;
   const Eigen::VectorXd& recorded_of(const MeasuredMotion& recording, std::size_t output) const;
   void record();
@@ -92,8 +102,9 @@ class EffortResiduals final : public RecordingResiduals {
   std::vector<std::string> outputs_;
   std::vector<int> drives_;  ///< per output: its row in the model's efforts and signals
   std::vector<std::vector<RecordedEffort>> efforts_;  ///< [recording][output]
-  /// the first sample of each recording in the model; then the number of samples
+  /// the first sample of each recording in the motion; then the number of samples
   std::vector<Eigen::Index> begins_;
+  std::unique_ptr<RestBounds> bounds_;
   std::unique_ptr<EffortModel> model_;
   /// [recording][shifted joint of the model]: index of its start in x; -1: known
   std::vector<std::vector<int>> start_columns_;

@@ -55,7 +55,8 @@ class ResidualSource {
   /// do not cross from one recording to the next. lengths() without such unknowns.
   virtual const SeriesLengths& pieces() const { return lengths(); }
   /// One for each residual that counts, zero for others, rows x outputs; empty: all count.
-  /// Residuals that do not count are zero, and so are their derivatives.
+  /// Residuals that do not count are zero, and so are their derivatives; but for a joint that rests
+  /// with an effort outside of its bounds.
   virtual Eigen::MatrixXd counted() const { return {}; }
   /// Decrease of the sum of rho(r / s) by the best unknowns at the last point evaluated with a
   /// Jacobian, to first order.

@@ -133,9 +133,11 @@ void read_settings(const YamlValue& set, const RecordingContext& in,
   }
 }
 
-/// `mask: {speed: 0.01}`, or `mask: {speed: {JOINT: 0.01}}`.
+/// `mask: {speed: 0.01, rest: bounds}`, or `mask: {speed: {JOINT: 0.01}}`.
 void read_mask(const YamlValue& mask, const RecordingContext& in, RecordingDescription* recording) {
-  mask.require_keys({"speed"}, {});
+  mask.require_keys({"speed"}, {"rest"});
+  if (const auto rest = mask.find("rest"))
+    recording->rest = read_choice(*rest, "rest", kRestRuleNames, recording->rest);
   const YamlValue speed = mask.at("speed");
   const auto add = [recording](const std::string& joint, const YamlValue& value) {
     recording->masks.push_back({joint, read_above_zero(value, " rad/s or m/s"), value.where()});
