@@ -86,6 +86,7 @@ const std::map<std::string, Json>& schemas() {
       {"margin", record_schema<AtFrequency>()},
       {"method_change", record_schema<MethodChange>()},
       {"mode", record_schema<LinearMode>()},
+      {"near_links", record_schema<NearLinks>()},
       {"optimum", record_schema<Optimum>()},
       {"output_fit", record_schema<OutputFit>()},
       {"predicted", record_schema<PredictedNumber>()},
