@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "description/clearance.h"
-#include "description/link_elements.h"
+#include "description/robot.h"
 #include "mechanism/signal_axes.h"
 #include "mechanism/topology.h"
 #include "text/nearest_name.h"
