@@ -97,8 +97,8 @@ struct WatchedResult {
   double smallest_time = 0.0, largest_time = 0.0;      ///< [s]
   /// largest violation of the bounds at the best point; 0 if they are met, and for peaks
   double violation = 0.0;
-  int smallest_scenario = 0,
-      largest_scenario = 0;  ///< index of the scenario in EnsembleResult::scenarios
+  /// index of the scenario in EnsembleResult::scenarios
+  int smallest_scenario = 0, largest_scenario = 0;
   /// The bounds, computed at the best point and the nominal values of the other parameters;
   /// infinite where the study gives none, and for peaks in the objective.
   double lower = -std::numeric_limits<double>::infinity(),

@@ -36,8 +36,8 @@ struct LoopWorkspace {
   std::vector<LinkMotion<double>> links;
   std::vector<CoordinateTwist> twists;
   VectorX<double> standstill, q, v;
-  Eigen::VectorXd largest,
-      largest_turn;  ///< per row: the largest entry in all columns, in those that are no slides
+  /// per row: the largest entry in all columns, in those that are no slides
+  Eigen::VectorXd largest, largest_turn;
 };
 
 /// The Jacobian Phi^l_theta of the rows of loops and couplings with respect to the tree's joint

@@ -34,6 +34,7 @@ void print_names(const std::string& what, const std::vector<std::string>& names,
 
 void print_redundancy(const Counts& counts, std::ostream& out) {
   std::vector<std::string> rows;
+  rows.reserve(counts.redundant_rows.size());
   for (const ConstraintRow& row : counts.redundant_rows)
     rows.push_back(row.joint + ", row " + std::to_string(row.row) + ": " + row.kind);
   print_names("redundant rows (they depend on the other rows at the start)", rows, out);
@@ -68,6 +69,7 @@ void print_table(const Counts& counts, std::ostream& out) {
 
 void print_numbers(const std::vector<MachineNumber>& numbers, std::ostream& out) {
   std::vector<std::string> rows;
+  rows.reserve(numbers.size());
   for (const MachineNumber& n : numbers)
     rows.push_back(n.joint + ", " + n.number + ": " + readable(n.value, 3) + " " + n.unit);
   print_names("numbers that are not given and follow the machine", rows, out);
@@ -94,6 +96,7 @@ StartReport look_at_start(const Problem& problem, const std::vector<double>& par
 
 void print_near(const std::vector<NearLinks>& near, std::ostream& out) {
   std::vector<std::string> rows;
+  rows.reserve(near.size());
   for (const NearLinks& links : near)
     rows.push_back(links.first + " and " + links.second + ": " +
                    (links.distance > 0.0 ? readable(1e3 * links.distance, 3) + " mm apart"
@@ -102,18 +105,6 @@ void print_near(const std::vector<NearLinks>& near, std::ostream& out) {
       "links whose <collision> are near each other at the start; they pass through each other, "
       "since no <codesign:contact> lets them touch",
       rows, out);
-}
-
-Json near_json(const std::vector<NearLinks>& near) {
-  Json list = Json::array();
-  for (const NearLinks& links : near) {
-    Json one;
-    one["first"] = links.first;
-    one["second"] = links.second;
-    one["distance"] = links.distance;
-    list.push_back(std::move(one));
-  }
-  return list;
 }
 
 }  // namespace
@@ -142,7 +133,7 @@ int check(const Arguments& arguments, const Console& console) {
   object["parameters"] = parameters_json(problem, parameters);
   if (status.ok()) object["counts"] = record_json(counts);
   object["limits_exceeded"] = to_json(start.crossings);
-  object["near_links"] = near_json(start.near);
+  object["near_links"] = records_json(start.near);
   object["machine_numbers"] = to_json(numbers);
   if (study_of(problem).identification) object["recordings"] = to_json(recordings);
   add_warnings(arguments, problem, warnings, &object, console);

@@ -168,7 +168,7 @@ std::optional<JointRecording> read_compared(const Arguments& arguments, const Pr
       checked_part(read_table_recording(description, arguments.compare, joints, "--compare"),
                    -kInfinite, kInfinite);
   check_part(robot_of(problem), &part, warnings);
-  return without_gaps(part, GapRule::kRefuse, warnings).front();
+  return without_gaps(part, GapRule::kRefuse, warnings, false).front();
 }
 
 std::string trajectory_text(const TrajectoryPoints& points) {

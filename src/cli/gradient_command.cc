@@ -6,16 +6,14 @@
 #include "ensemble/other_steps.h"
 #include "jobs/json.h"
 #include "jobs/json_records.h"
+#include "jobs/record_json.h"
+#include "jobs/result_fields.h"
 #include "math/arrays.h"
 #include "text/number_text.h"
 #include "text/table.h"
 
 namespace codesign::cli {
 namespace {
-
-const char* name_of(CheckMethod method) {
-  return method == CheckMethod::kComplexStep ? "complex_step" : "ridders";
-}
 
 GradientCheck compute(const Arguments& arguments, const Problem& problem, const Console& console) {
   const Ensemble ensemble(problem, 1, {nullptr, nullptr, console.ranks});
@@ -96,18 +94,10 @@ Json result_json(const Arguments& arguments, const Problem& problem, const Gradi
   add_events(result.evaluation.events, &object);
   object.update(counts);
   if (!arguments.verify || !result.status.ok()) return object;
-  Json& verification = object["verification"];
-  verification["method"] = name_of(result.method);
-  if (result.directions.size() > 0) {
-    verification["directions"] = result.directions.cols();
-  } else {
-    verification["reference"] = by_name(names, result.reference);
-    verification["reference_error"] = by_name(names, result.reference_error);
-  }
-  verification["largest_relative_difference"] = result.largest_relative_difference;
-  if (result.finer.size() > 0) verification["largest_change"] = result.largest_change;
-  if (result.independent.evaluations > 0)
-    verification["differences"] = differences_json(result.independent);
+  Json& verification = object["verification"] = record_json(result);
+  if (result.directions.size() > 0) return object;
+  verification["reference"] = by_name(names, result.reference);
+  verification["reference_error"] = by_name(names, result.reference_error);
   return object;
 }
 

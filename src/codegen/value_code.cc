@@ -53,8 +53,8 @@ class Uses {
 
  private:
   std::vector<int> positions_;  ///< of all nodes, one after the other
-  std::vector<std::size_t> next_,
-      last_;  ///< per node: where its next position is, and where its positions end
+  /// per node: where its next position is, and where its positions end
+  std::vector<std::size_t> next_, last_;
 };
 
 class Code final : public ValueCode, private MachineCode {
@@ -357,8 +357,8 @@ class Code final : public ValueCode, private MachineCode {
   int slot_array_;
   Uses uses_;
   std::vector<int> register_of_;  ///< per node: the register that holds it, -1 if none
-  std::vector<bool> stored_,
-      kept_;  ///< per node: its value is in its slot; it must be there at the end
+  /// per node: its value is in its slot; it must be there at the end
+  std::vector<bool> stored_, kept_;
   std::array<int, kRegisters> held_{};       ///< the node in each register, -1 if none
   std::array<int, kRegisters> next_read_{};  ///< per register in use: Uses::next() of its node
   std::array<bool, kRegisters> busy_{};      ///< the present instruction reads or writes it

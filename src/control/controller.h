@@ -146,9 +146,9 @@ struct Controller {
   std::vector<int> efforts;      ///< kObserver: the controllers whose outputs it counts
   bool has_error_rate = false;   ///< whether the rate of the error is needed
   std::vector<Signal> feedback;  ///< kStateFeedback: one signal per term
-  int pair = -1,
-      element = -1;  ///< the driven coordinate: index in Topology::pairs and in the pair's chain
-  int state = -1;    ///< index of its integral among the extra states, or -1
+  /// the driven coordinate: index in Topology::pairs and in the pair's chain
+  int pair = -1, element = -1;
+  int state = -1;           ///< index of its integral among the extra states, or -1
   ControllerStates states;  ///< the other states
   /// The rates of signals that the rate of the output needs, theory (54): the rates of `input` and
   /// of `input_rate`, or of `feedback`.

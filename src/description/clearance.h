@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "description/robot.h"
 #include "math/arrays.h"
@@ -15,6 +16,18 @@ inline bool has_clearance(const RobotDescription& robot, const JointDescription&
     return other.is_play && other.child == joint.parent && !joint.is_play &&
            robot.links[to_index(other.child)].name == other.name;
   });
+}
+
+/// The name of a joint that lets `joint` play. @param way `x`, `y`, `z` or `turn`
+inline std::string play_of(const std::string& joint, const std::string& way) {
+  return joint + '_' + way;
+}
+
+/// The name of the contact that takes the place of a joint with clearance.
+inline std::string clearance_contact(const std::string& joint) { return joint + "_clearance"; }
+/// The same, of a joint with the name play_of().
+inline std::string contact_of_play(const std::string& play) {
+  return clearance_contact(play.substr(0, play.rfind('_')));
 }
 
 }  // namespace codesign

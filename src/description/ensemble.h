@@ -34,8 +34,8 @@ enum class DistributionKind {
 /// The distribution of one number.
 struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
-  double mean = 0.0,
-         deviation = 0.0;  ///< kNormal; a deviation of zero: the mean, within the bounds
+  /// kNormal; a deviation of zero: the mean, within the bounds
+  double mean = 0.0, deviation = 0.0;
   double lower = -std::numeric_limits<double>::infinity();  ///< kUniform; truncation of kNormal
   double upper = std::numeric_limits<double>::infinity();   ///< likewise
   /// kChoice; for friction laws, the indices of `laws` of UncertainQuantity

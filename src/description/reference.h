@@ -36,8 +36,8 @@ struct BasisDescription {
 /// The B_k that are not zero at an instant.
 struct BasisWeights {
   int first = 0, count = 0;  ///< B_first, ..., B_(first + count - 1)
-  std::array<double, 4> value{},
-      rate{};  ///< B_k and its time derivative [1/s]; the first `count` entries
+  /// B_k and its time derivative [1/s]; the first `count` entries
+  std::array<double, 4> value{}, rate{};
 };
 
 /// The weights at time t [s]; rates are zero after the duration.

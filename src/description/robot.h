@@ -10,6 +10,7 @@
 
 #include "description/expression.h"
 #include "description/loss_law.h"
+#include "description/signal_table.h"
 #include "forces/contact_law.h"
 #include "forces/contact_shape.h"
 #include "forces/control_law.h"
@@ -129,8 +130,8 @@ struct MimicDescription {
 /// `<codesign:torsion_spring>`: load stiffness * (theta - free_position) + damping * theta' against
 /// the coordinate; theory (13).
 struct TorsionSpringDescription {
-  Quantity stiffness, damping,
-      free_position;  ///< [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
+  /// [N m/rad or N/m], [N m s/rad or N s/m], [rad or m]
+  Quantity stiffness, damping, free_position;
 };
 
 /// The losses of an actuator's gear and motor, theory (9b).
@@ -177,15 +178,15 @@ struct JointDescription {
   bool is_loop = false;
   /// of a loop: reactions out of the plane of its motion are stated to be zero; theory (23c)
   bool in_plane = false;
-  int parent = -1,
-      child = -1;  ///< indices into RobotDescription::links; of a loop: predecessor, successor
+  /// indices into RobotDescription::links; of a loop: predecessor, successor
+  int parent = -1, child = -1;
   PoseDescription origin;  ///< joint frame at zero position in the parent's link frame
   /// joint frame in the child's link frame; the identity for a tree joint
   PoseDescription child_origin;
   QuantityVector axis{1.0, 0.0, 0.0};  ///< in the joint frame, not necessarily of unit length
-  QuantityVector second_axis{
-      0.0, 1.0, 0.0};  ///< universal loops: the successor's axis, in the successor's joint frame
-  Quantity distance;   ///< kDistance: the length [m]
+  /// universal loops: the successor's axis, in the successor's joint frame
+  QuantityVector second_axis{0.0, 1.0, 0.0};
+  Quantity distance;  ///< kDistance: the length [m]
   std::optional<FrictionDescription> friction;
   Quantity damping, dry_friction;  ///< `<dynamics damping friction>`
   /// inertia of the coordinate alone [kg m^2 or kg], theory (9e), of the motor's side of an elastic
@@ -261,8 +262,8 @@ struct CouplingDescription {
 struct SpringDamperDescription {
   std::string name;
   int predecessor = -1, successor = -1;  ///< links
-  PoseDescription predecessor_origin,
-      successor_origin;  ///< the points, in the frames of the links; rpy is unused
+  /// the points, in the frames of the links; rpy is unused
+  PoseDescription predecessor_origin, successor_origin;
   Quantity stiffness, damping, free_length;  ///< [N/m], [N s/m], [m]
   SourceLocation where;
 };
@@ -338,5 +339,34 @@ struct RobotDescription {
 
 /// The index of a joint or loop in RobotDescription::joints; -1 if none has this name.
 int joint_named(const RobotDescription& robot, const std::string& name);
+
+/// A kind of elements between two links, which a model names and which have signals.
+struct LinkElementKind {
+  SignalOwner owner;
+  const char* tag;   ///< of its elements in the model
+  const char* word;  ///< for messages: "spring"
+  /// Whether one may have the name of a link, joint or element of another kind: the quantity of a
+  /// signal then tells them apart.
+  bool shares_names;
+};
+
+/// Calls visit(kind, list) for each kind. A new kind has its structure, its list and a row here;
+/// doc/architecture.md says what else it needs.
+template <class Robot, class Visit>
+void for_each_link_element_kind(Robot& robot, const Visit& visit) {
+  visit(LinkElementKind{SignalOwner::kSpring, "codesign:spring_damper", "spring", true},
+        robot.spring_dampers);
+  visit(LinkElementKind{SignalOwner::kContact, "codesign:contact", "contact", false},
+        robot.contacts);
+}
+
+/// The tags of all kinds.
+inline std::vector<std::string> link_element_tags() {
+  std::vector<std::string> tags;
+  const RobotDescription robot;
+  for_each_link_element_kind(
+      robot, [&tags](const LinkElementKind& kind, const auto&) { tags.emplace_back(kind.tag); });
+  return tags;
+}
 
 }  // namespace codesign

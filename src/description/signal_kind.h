@@ -3,10 +3,10 @@
 
 namespace codesign {
 
-struct JointDescription;
-
 /// The quantities that one term of a signal reads; doc/study/signals.md describes them.
 enum class SignalKind {
+  kNext = -2,  ///< of a row: the quantity of the row behind it
+  kNone,       ///< no quantity; of a row: one that no code names
   kJointPosition,
   kJointVelocity,
   kJointAcceleration,
@@ -50,15 +50,7 @@ enum class SignalKind {
   kLinkOrientation,
   kImuAcceleration,     ///< proper acceleration of a link's origin, in its own axes; theory (11c)
   kImuAngularVelocity,  ///< of a link, in its own axes
-  kSpringForce,         ///< tension of a spring-damper; theory (13b)
-  kSpringLength,
-  kSpringSpeed,  ///< rate of its length
-  kContactGap,   ///< of the nearest point of two shapes, negative by the penetration; theory (13k)
-  kContactGapRate,
-  kContactNormalForce,    ///< of all points together; theory (13l)
-  kContactShapeFriction,  ///< magnitude of the sum; theory (13m)
-  kContactSlipSpeed,      ///< of the nearest point
-  kKineticEnergy,         ///< of the whole mechanism; theory (14b)
+  kKineticEnergy,       ///< of the whole mechanism; theory (14b)
   kPotentialEnergy,
   kTotalEnergy,
   kTotalFrictionPower,  ///< of the whole mechanism; theory (14c)
@@ -77,8 +69,8 @@ enum class SignalKind {
   kContactFriction,  ///< friction of a pair that slips isotropically; theory (13a)
   kContactSpeed,     ///< speed of slip of such a pair
   kImuAngularAcceleration,
-  kControllerErrorRate,
-  kNone  ///< no quantity
+  kControllerErrorRate
+  // Quantities that no code names follow, in the order of their rows.
 };
 
 /// The kinds of power that go into a mechanism, doc/theory.md (14c); their sum is the rate of the
@@ -92,9 +84,6 @@ enum class PowerKind {
   kActuator,  ///< controllers, as applied within the effort limits, and drives
   kLoad       ///< the study's efforts and wrenches
 };
-
-/// What has a quantity.
-enum class SignalOwner { kJoint, kController, kLink, kSpring, kContact, kMechanism };
 
 /// On what a quantity depends, besides time and parameters.
 enum class SignalNeeds {
@@ -114,21 +103,6 @@ enum class SignalAxes {
   kRootLink,    ///< of the root link
   kChildFrame,  ///< of the joint frame that the child of a joint carries
   kOwnLink      ///< of the link that has the quantity
-};
-
-/// What there is to know of a quantity besides its value.
-struct SignalFacts {
-  SignalKind kind;
-  SignalOwner owner;
-  const char* quantity;  ///< as files spell it; empty if they do not
-  /// q and Q stand for the units of position and effort of the joint, or of the joint that a
-  /// controller drives; e for that of a controller's input
-  const char* unit;
-  bool (*is_of)(const JointDescription&);  ///< whether a joint has it; null: every owner has it
-  SignalNeeds needs;
-  SignalKind rate = SignalKind::kNone;  ///< its time derivative
-  SignalShape shape = SignalShape::kScalar;
-  SignalAxes axes = SignalAxes::kNone;
 };
 
 }  // namespace codesign

@@ -14,6 +14,24 @@ namespace codesign {
 
 struct JointDescription;
 
+/// What has a quantity.
+enum class SignalOwner { kJoint, kController, kLink, kSpring, kContact, kMechanism };
+
+/// What there is to know of a quantity besides its value.
+struct SignalFacts {
+  SignalKind kind;
+  SignalOwner owner;
+  const char* quantity;  ///< as files spell it; empty if they do not
+  /// q and Q stand for the units of position and effort of the joint, or of the joint that a
+  /// controller drives; e for that of a controller's input
+  const char* unit;
+  bool (*is_of)(const JointDescription&);  ///< whether a joint has it; null: every owner has it
+  SignalNeeds needs;
+  SignalKind rate = SignalKind::kNone;  ///< its time derivative
+  SignalShape shape = SignalShape::kScalar;
+  SignalAxes axes = SignalAxes::kNone;
+};
+
 /// A quantity with its value, a function of a StateView and a SignalReference, in SI units. The
 /// functions that a value calls are found where it is used, in elements/.
 template <class Value>
@@ -48,9 +66,22 @@ using Needs = SignalNeeds;
 using Shape = SignalShape;
 using Axes = SignalAxes;
 
-/// All quantities, in the order of SignalKind. A new one is an enumerator and a row here, and a
-/// line of doc/study/signals.md.
-inline constexpr auto kRows = std::make_tuple(
+/// Sets the kinds that rows leave open.
+template <class... Values>
+constexpr auto numbered(std::tuple<SignalEntry<Values>...> rows) {
+  int k = 0;
+  const auto number = [&k](SignalFacts* facts) {
+    if (facts->kind == SignalKind::kNone) facts->kind = static_cast<SignalKind>(k);
+    ++k;
+    if (facts->rate == SignalKind::kNext) facts->rate = static_cast<SignalKind>(k);
+  };
+  std::apply([&number](auto&... row) { (number(&row.facts), ...); }, rows);
+  return rows;
+}
+
+/// All quantities, in the order of SignalKind. A new one is a row here, with an enumerator if code
+/// names it, and a line of doc/study/signals.md.
+inline constexpr auto kRows = numbered(std::make_tuple(
     signal_entry({K::kJointPosition, Of::kJoint, "position", "q", has_coordinate, Needs::kMotion,
                   K::kJointVelocity},
                  [](const auto& view, const auto& of) {
@@ -203,37 +234,6 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry({K::kImuAngularVelocity, Of::kLink, "imu_angular_velocity", "rad/s", nullptr,
                   Needs::kMotion, K::kImuAngularAcceleration, Shape::kVector, Axes::kOwnLink},
                  [](const auto& view, const auto& of) { return link_angular_velocity(view, of); }),
-    signal_entry({K::kSpringForce, Of::kSpring, "force", "N", nullptr, Needs::kMotion},
-                 [](const auto& view, const auto& of) {
-                   return spring_at(view, to_index(of.link_element)).tension;
-                 }),
-    signal_entry(
-        {K::kSpringLength, Of::kSpring, "length", "m", nullptr, Needs::kMotion, K::kSpringSpeed},
-        [](const auto& view, const auto& of) {
-          return spring_at(view, to_index(of.link_element)).length;
-        }),
-    signal_entry({K::kSpringSpeed, Of::kSpring, "speed", "m/s", nullptr, Needs::kMotion},
-                 [](const auto& view, const auto& of) {
-                   return spring_speed(view, to_index(of.link_element));
-                 }),
-    signal_entry(
-        {K::kContactGap, Of::kContact, "gap", "m", nullptr, Needs::kMotion, K::kContactGapRate},
-        [](const auto& view, const auto& of) { return nearest_point(view, of.link_element).gap; }),
-    signal_entry({K::kContactGapRate, Of::kContact, "gap_rate", "m/s", nullptr, Needs::kMotion},
-                 [](const auto& view, const auto& of) {
-                   return nearest_point(view, of.link_element).gap_rate;
-                 }),
-    signal_entry(
-        {K::kContactNormalForce, Of::kContact, "normal_force", "N", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) {
-          return contact_normal_force(view, of.link_element);
-        }),
-    signal_entry(
-        {K::kContactShapeFriction, Of::kContact, "friction", "N", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return contact_friction(view, of.link_element); }),
-    signal_entry(
-        {K::kContactSlipSpeed, Of::kContact, "sliding_speed", "m/s", nullptr, Needs::kMotion},
-        [](const auto& view, const auto& of) { return contact_slip_speed(view, of.link_element); }),
     signal_entry(
         {K::kKineticEnergy, Of::kMechanism, "kinetic_energy", "J", nullptr, Needs::kMotion},
         [](const auto& view, const auto&) { return kinetic_energy(view); }),
@@ -303,7 +303,40 @@ inline constexpr auto kRows = std::make_tuple(
     signal_entry({K::kControllerErrorRate, Of::kController, "", "", nullptr, Needs::kForces},
                  [](const auto& view, const auto& of) {
                    return controller_error_rate(view, of.controller);
-                 }));
+                 }),
+    // Of elements between two links, theory (13b) and (13k) to (13m). A gap is that of the nearest
+    // point of two shapes, negative by the penetration, as is the speed of slip; forces are those
+    // of all points together.
+    signal_entry({K::kNone, Of::kSpring, "force", "N", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return spring_at(view, to_index(of.link_element)).tension;
+                 }),
+    signal_entry({K::kNone, Of::kSpring, "length", "m", nullptr, Needs::kMotion, K::kNext},
+                 [](const auto& view, const auto& of) {
+                   return spring_at(view, to_index(of.link_element)).length;
+                 }),
+    signal_entry({K::kNone, Of::kSpring, "speed", "m/s", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return spring_speed(view, to_index(of.link_element));
+                 }),
+    signal_entry(
+        {K::kNone, Of::kContact, "gap", "m", nullptr, Needs::kMotion, K::kNext},
+        [](const auto& view, const auto& of) { return nearest_point(view, of.link_element).gap; }),
+    signal_entry({K::kNone, Of::kContact, "gap_rate", "m/s", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return nearest_point(view, of.link_element).gap_rate;
+                 }),
+    signal_entry({K::kNone, Of::kContact, "normal_force", "N", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return contact_normal_force(view, of.link_element);
+                 }),
+    signal_entry(
+        {K::kNone, Of::kContact, "friction", "N", nullptr, Needs::kMotion},
+        [](const auto& view, const auto& of) { return contact_friction(view, of.link_element); }),
+    signal_entry({K::kNone, Of::kContact, "sliding_speed", "m/s", nullptr, Needs::kMotion},
+                 [](const auto& view, const auto& of) {
+                   return contact_slip_speed(view, of.link_element);
+                 })));
 
 constexpr std::size_t kCount = std::tuple_size_v<decltype(kRows)>;
 
@@ -314,7 +347,7 @@ inline constexpr auto kFacts = std::apply(
 constexpr bool is_ordered() {
   for (std::size_t k = 0; k < kCount; ++k)
     if (kFacts[k].kind != static_cast<SignalKind>(k)) return false;
-  return kCount == static_cast<std::size_t>(SignalKind::kNone);
+  return kCount > static_cast<std::size_t>(SignalKind::kControllerErrorRate);
 }
 static_assert(is_ordered(), "a row per SignalKind, in its order");
 

@@ -41,8 +41,8 @@ struct Design {
   Constants<T> constants;         ///< masses, geometry, springs and couplings of the model
   std::vector<PairRows<T>> rows;  ///< constraint rows, one entry per pair of the topology
   std::vector<ControllerConstants<T>> controllers;  ///< order of Study::controllers
-  ObjectiveNumbers<T> integral,
-      terminal;                       ///< the integrand g and the terminal terms w of theory (21)
+  /// the integrand g and the terminal terms w of theory (21)
+  ObjectiveNumbers<T> integral, terminal;
   std::vector<Reference<T>> watched;  ///< the references of Study::watched, theory (21a)
   std::vector<LoadNumbers<T>> loads;  ///< order of Study::loads
   Reference<T> clock;                 ///< the time; of recordings if System::reads_time()

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "elements/body_contact.h"
-#include "elements/loads.h"
+#include "elements/spring_damper.h"
 #include "elements/state_view.h"
 
 namespace codesign {

@@ -62,8 +62,8 @@ struct RankState {
   bool is_ready = false;  ///< kHello has arrived
   bool has_left = false;  ///< kGoodbye has arrived
   std::string host;
-  PollPause::Clock::time_point heard,
-      addressed;           ///< time of the last message from this rank and to it
+  /// time of the last message from this rank and to it
+  PollPause::Clock::time_point heard, addressed;
   std::uint64_t pong = 0;  ///< the last ping that the rank has answered
   /// tasks without an answer, at most two: one runs, and one waits at the rank
   std::vector<SentTask> sent{};

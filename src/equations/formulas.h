@@ -7,7 +7,6 @@
 #include "elements/energy.h"
 #include "elements/state_view.h"
 #include "equations/equation_function.h"
-#include "forces/compliance.h"
 #include "math/arrays.h"
 
 namespace codesign {
@@ -89,8 +88,6 @@ class Formulas {
   void stuck_slips(VectorX<T>* accelerations, VectorX<T>* limits) const;
   /// begin_bristles() at the loaded state. @param s all extra states.
   void begin_bristles(VectorX<T>* s) const;
-  /// The force of the k-th spring-damper of RobotDescription::spring_dampers, theory (13b).
-  SpringForce<T> spring(std::size_t k) const;
   /// The effort that controllers apply along a coordinate, within the actuator's limit (13c) [N or
   /// N m].
   T effort(int pair, int element) const;

@@ -184,11 +184,6 @@ void Formulas<T>::begin_bristles(VectorX<T>* s) const {
 }
 
 template <class T>
-SpringForce<T> Formulas<T>::spring(std::size_t k) const {
-  return spring_at(view_, k);
-}
-
-template <class T>
 T Formulas<T>::effort(int pair, int element) const {
   return joint_effort(view_, pair, element);
 }

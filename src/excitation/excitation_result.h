@@ -66,8 +66,8 @@ struct ExcitationResult {
   std::string termination;                ///< of the best search
   std::vector<PredictedNumber> numbers;   ///< empty: no trajectory was found
   std::vector<std::string> undetermined;  ///< sentences about numbers that no trajectory determines
-  double criterion_before = 0.0,
-         criterion = 0.0;  ///< (46a) of the recordings; infinite if they determine too few numbers
+  /// (46a) of the recordings; infinite if they determine too few numbers
+  double criterion_before = 0.0, criterion = 0.0;
   /// BasePrecision::Merit::condition of the plain trajectory and of that found
   double condition_before = 0.0, condition = 0.0;
   std::vector<PredictedBase> base;  ///< empty if the numbers are the base parameters themselves

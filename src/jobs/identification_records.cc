@@ -29,29 +29,9 @@ namespace {
 constexpr double kWhiteBelow = 0.01;  // probability below which residuals do not count as white
 constexpr std::size_t kShownOptima = 10, kToldSentences = 5;
 
-const char* name_of(ProfileEnd end) {
-  switch (end) {
-    case ProfileEnd::kFound:
-      return "found";
-    case ProfileEnd::kBound:
-      return "bound";
-    case ProfileEnd::kUnbounded:
-      return "unbounded";
-    case ProfileEnd::kFailed:
-      return "failed";
-  }
-  return "";
-}
-
 Json number_json(const IdentifiedNumber& number) {
   Json object = record_json(number);
   object["interval"] = number.is_on_bound ? Json() : Json::array({number.low, number.high});
-  if (number.profile) {
-    const ProfileInterval& profile = *number.profile;
-    object["profile"] = {{"interval", {profile.lower, profile.upper}},
-                         {"ends", {name_of(profile.lower_end), name_of(profile.upper_end)}},
-                         {"found_better", profile.found_better}};
-  }
   return object;
 }
 
@@ -62,10 +42,7 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
 
 Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
   Json joints = Json::object();
-  for (const OutputFit& fit : fits) {
-    joints[fit.joint] = record_json(fit);
-    joints[fit.joint]["whiteness"] = record_json(fit.whiteness);
-  }
+  for (const OutputFit& fit : fits) joints[fit.joint] = record_json(fit);
   return {{"samples", samples}, {"joints", std::move(joints)}};
 }
 
@@ -107,10 +84,9 @@ Json searches_json(const FitSearches& searches, const std::vector<IdentifiedNumb
                       {"found", optimum.found},
                       {"values", std::move(values)}});
   }
-  return {{"starts", searches.starts.size()},
-          {"screened", searches.screened},
-          {"unusable", searches.unusable},
-          {"optima", std::move(optima)}};
+  Json object = record_json(searches);
+  object["optima"] = std::move(optima);
+  return object;
 }
 
 std::string residuals_text(const IdentificationResult& result) {

@@ -73,9 +73,7 @@ void add_events(const Events& events, Json* object) {
   (*object)["event_count"] = events.count;
 }
 
-Json to_json(const Status& status) {
-  return {{"code", name_of(status.code)}, {"message", status.cause}, {"time", status.time}};
-}
+Json to_json(const Status& status) { return record_json(status); }
 
 Json to_json(const Warnings& warnings) { return records_json(warnings); }
 
@@ -129,8 +127,9 @@ Json exact_check_json(const Problem& problem, const OptimizationResult& result,
       seconds > std::max(kUnnoticed, kShare * result.cost.statistics.cpu_seconds))
     return skipped("it would take about " + readable(std::ceil(seconds)) +
                    " s, more than a tenth of the search; codesign gradient --verify does it");
-  const bool by_differences = study_of(problem).solver.integrator == IntegratorKind::kIdas;
-  const CheckMethod method = by_differences ? CheckMethod::kRidders : CheckMethod::kComplexStep;
+  const CheckMethod method = study_of(problem).solver.integrator == IntegratorKind::kIdas
+                                 ? CheckMethod::kRidders
+                                 : CheckMethod::kComplexStep;
   GradientCheck check;
   try {
     check = check_along(Ensemble(problem), result.best.rho, method, cancel);
@@ -140,7 +139,7 @@ Json exact_check_json(const Problem& problem, const OptimizationResult& result,
   }
   if (!check.status.ok()) return skipped(describe(check.status));
   const std::vector<std::string> names = problem.tuned_names();
-  Json object = {{"method", by_differences ? "ridders" : "complex_step"},
+  Json object = {{"method", name_of(method)},
                  {"gradient", by_name(names, check.evaluation.gradient)},
                  {"largest_relative_difference", check.largest_relative_difference}};
   if (check.directions.size() > 0)

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "jobs/fit_fields.h"
+#include "jobs/record_json.h"
 #include "mechanism_codesign/error.h"
 #include "text/number_text.h"
 
@@ -34,21 +36,9 @@ Json pairs(const std::vector<JudgedOutput>& other, const std::vector<JudgedOutpu
   for (const JudgedOutput& left : other)
     for (const JudgedOutput& right : here)
       if (left.name == right.name)
-        object[left.name] = {{"rms", {left.rms, right.rms}},
-                             {"explained", {left.explained, right.explained}}};
+        object[left.name] =
+            record_json(JudgedPair{{left.rms, right.rms}, {left.explained, right.explained}});
   return object;
-}
-
-void add_criterion(const ModelComparison& comparison, Json* object) {
-  Json& to = *object;
-  to["inflation"] = comparison.inflation;
-  to["criterion"] = comparison.criterion;
-  to["nested"] = comparison.is_nested;
-  if (!comparison.is_nested) return;
-  to["larger"] = comparison.is_here_larger ? "here" : "other";
-  to["statistic"] = comparison.statistic;
-  to["degrees"] = comparison.degrees;
-  to["probability"] = comparison.probability;
 }
 
 std::string output_sentence(const std::string& set, const std::string& name, const Json& output) {
@@ -110,12 +100,8 @@ JudgedModel read_judged_model(const SourceText& json) {
 
 Json comparison_json(const SourceText& other, const SourceText& here) {
   const JudgedModel there = read_judged_model(other), model = read_judged_model(here);
-  const ModelComparison comparison = compare_models(there, model);
   Json object = {{"other", other.name}, {"numbers", {there.numbers.size(), model.numbers.size()}}};
-  if (comparison.refusal.empty())
-    add_criterion(comparison, &object);
-  else
-    object["refusal"] = comparison.refusal;
+  add_fields(compare_models(there, model), &object);
   object["data"] = pairs(there.data, model.data);
   object["holdout"] = pairs(there.holdout, model.holdout);
   return object;

@@ -41,10 +41,9 @@ Json multistart_json(const Problem& problem, const OptimizationResult& result) {
     optima.push_back(record_json(optimum));
     optima.back()["parameters"] = by_name(problem.tuned_names(), optimum.rho);
   }
-  return {{"starts", result.multistart.starts.size()},
-          {"screened", result.multistart.screened},
-          {"unusable", result.multistart.unusable},
-          {"optima", optima}};
+  Json object = record_json(result.multistart);
+  object["optima"] = std::move(optima);
+  return object;
 }
 
 /// Names of the parameters that any scenario sets, in the order of their first appearance.

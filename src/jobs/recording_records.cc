@@ -42,13 +42,12 @@ Json trajectory_json(const ExcitationDescription& description, const ExcitationR
 
 Json compared_json(const ExcitationResult& result) {
   const ComparedTrajectory& compared = *result.compared;
-  Json object = {{"samples", compared.samples}, {"rate", compared.rate}};
+  Json object = record_json(compared);
   if (!compared.status.ok()) {
     object["error"] = to_json(compared.status);
     return object;
   }
   object["volume_factor"] = std::exp(0.5 * (result.criterion_before - compared.criterion));
-  object["condition"] = compared.condition;
   for (std::size_t k = 0; k < result.numbers.size(); ++k)
     object["deviations"][result.numbers[k].name] = compared.deviations[to_signed(k)];
   for (std::size_t k = 0; k < result.base.size(); ++k)
@@ -56,11 +55,6 @@ Json compared_json(const ExcitationResult& result) {
   for (const KeptLimit& limit : compared.limits)
     object["limits"][limit.limits.name] = record_json(limit);
   return object;
-}
-
-/// The mean factor of one interval: the root of the factor of the volume over all numbers.
-double factor_of_one(const ExcitationResult& result) {
-  return result.counted == 0 ? 1.0 : std::pow(result.volume_factor(), 1.0 / result.counted);
 }
 
 }  // namespace
@@ -90,13 +84,9 @@ Json excitation_json(const Problem& problem, const ExcitationResult& result) {
   for (const PredictedNumber& number : result.numbers)
     object["predicted"][number.name] = record_json(number);
   object["level"] = study_of(problem).identification->intervals.level;
-  object["volume_factor"] = result.volume_factor();
-  object["mean_factor"] = factor_of_one(result);
-  object["undetermined"] = result.undetermined;
-  object["condition"] = {{"before", result.condition_before}, {"after", result.condition}};
   for (const PredictedBase& base : result.base)
-    object["base"][base.expression] = {{"before", base.deviation_before},
-                                       {"after", base.deviation}};
+    object["base"][base.expression] =
+        record_json(BeforeAfter{base.deviation_before, base.deviation});
   if (result.compared) object["compared"] = compared_json(result);
   if (result.points.joints.empty()) return object;
   for (const KeptLimit& limit : result.limits)
@@ -127,7 +117,7 @@ std::vector<std::string> excitation_sentences(const ExcitationResult& result) {
     sentences.push_back(
         "predicted volume of the intervals: " + readable(result.volume_factor(), kFactorDigits) +
         " times smaller than with the plain trajectory, each interval on average " +
-        readable(factor_of_one(result), kFactorDigits) + " times");
+        readable(mean_factor(result), kFactorDigits) + " times");
   return sentences;
 }
 

@@ -5,6 +5,7 @@
 
 #include "jobs/effort_recorder.h"
 #include "jobs/fields.h"
+#include "jobs/near_links.h"
 #include "jobs/run_recorder.h"
 #include "linear/linear_model.h"
 #include "linear/loop_margins.h"
@@ -111,6 +112,15 @@ constexpr auto fields_of(const MachineNumber*) {
                          field("number", &MachineNumber::number, "which one"),
                          field("value", &MachineNumber::value, "in the unit beside it"),
                          field("unit", &MachineNumber::unit, "of the value"));
+}
+
+constexpr auto fields_of(const NearLinks*) {
+  return std::make_tuple(
+      field("first", &NearLinks::first, "a link"),
+      field("second", &NearLinks::second, "another one"),
+      field("distance", &NearLinks::distance,
+            "of the boxes about their shapes, at least [m]; 0 where they overlap")
+          .finite());
 }
 
 /// Without radius, which a period gives, and rates.

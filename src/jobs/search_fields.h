@@ -10,6 +10,7 @@
 #include "mechanism_codesign/gradient.h"
 #include "mechanism_codesign/optimization.h"
 #include "mechanism_codesign/status.h"
+#include "optimization/tradeoff.h"
 
 namespace codesign {
 
@@ -57,6 +58,17 @@ constexpr auto fields_of(const Optimum*) {
       field("objective", &Optimum::objective, "of a search: the objective there").not_always(),
       field("found", &Optimum::found, "searches that ended there"));
 }
+
+/// How the starts of several searches were chosen; without what they have found.
+template <class Searches>
+constexpr auto rows_of_starts() {
+  return std::make_tuple(
+      field(
+          "starts", [](const Searches& one) { return one.starts.size(); }, "number of searches"),
+      field("screened", &Searches::screened, "points that were evaluated to choose the starts"),
+      field("unusable", &Searches::unusable, "of these failed"));
+}
+constexpr auto fields_of(const MultistartResult*) { return rows_of_starts<MultistartResult>(); }
 
 /// Without the designs. No document has it.
 constexpr auto fields_of(const StartResult*) {
@@ -133,6 +145,44 @@ constexpr auto fields_of(const ApplyRecord::Change*) {
       field("now", &ApplyRecord::Change::now));
 }
 
+/// Without the file and the kind of failure, which bad input has.
+constexpr auto fields_of(const Status*) {
+  return std::make_tuple(
+      field(
+          "code", [](const Status& one) { return name_of(one.code); },
+          "name of the status, or bad_input, bad_usage, output_failed, failed"),
+      field("message", &Status::cause, "the sentence that the terminal shows"),
+      field("time", &Status::time, "of a status: the time of the run at which it arose [s]")
+          .not_always());
+}
+
+/// Without the names of objectives and parameters.
+constexpr auto fields_of(const TradeoffPoint*) {
+  using P = TradeoffPoint;
+  return std::make_tuple(
+      field(
+          "kind",
+          [](const P& one) { return kTradeoffKindNames[static_cast<std::size_t>(one.kind)]; },
+          "whether it lies on the curve; dominated: another point is as good in all objectives and "
+          "better in one; repeated: the curve has a gap"),
+      field("anchor", &P::is_anchor, "the least of one objective alone"),
+      field(
+          "place",
+          [](const P& one) { return std::vector<double>(one.place.begin(), one.place.end()); },
+          "weights of the ends of the curve in its reference point")
+          .finite(),
+      field("status", &P::status, "of its search; `success` with an empty message"),
+      field("termination", &P::termination, "why its search ended"),
+      field("stationarity", &P::stationarity, "of the end of its search"),
+      field("warnings", &P::warnings, "codes of the search's warnings"));
+}
+constexpr auto fields_of(const TradeoffResult*) {
+  return std::make_tuple(field("smallest_gap", &TradeoffResult::smallest_gap,
+                               "of two objectives: distance of neighbours on the curve, each "
+                               "objective over nadir - ideal"),
+                         field("largest_gap", &TradeoffResult::largest_gap, "likewise"));
+}
+
 /// A number of differences; absent where they are not known.
 template <class T>
 std::optional<T> if_known(const IndependentCheck& of, const T& value) {
@@ -193,6 +243,47 @@ constexpr auto fields_of(const IndependentCheck*) {
             return one.is_known() ? std::nullopt : std::optional<std::string>(describe(one.status));
           },
           "why nothing is known; then no other key"));
+}
+
+/// As a study and the command line spell it.
+constexpr const char* name_of(CheckMethod method) {
+  return method == CheckMethod::kComplexStep ? "complex_step" : "ridders";
+}
+
+/// Without the reference, whose entries have the names of parameters.
+constexpr auto fields_of(const GradientCheck*) {
+  using C = GradientCheck;
+  return std::make_tuple(
+      field(
+          "method", [](const C& one) { return name_of(one.method); },
+          "that the gradient was compared with"),
+      field(
+          "directions",
+          [](const C& one) {
+            return one.directions.size() > 0 ? std::optional<Eigen::Index>(one.directions.cols())
+                                             : std::nullopt;
+          },
+          "random directions that agree"),
+      field("largest_relative_difference", &C::largest_relative_difference,
+            "largest difference between gradient and reference, relative to the derivative, or to "
+            "1e-3 of the largest one if that is more; along a direction relative to the largest "
+            "term of the sum"),
+      field(
+          "largest_change",
+          [](const C& one) {
+            return one.finer.size() > 0 ? std::optional<double>(one.largest_change) : std::nullopt;
+          },
+          "by how much the gradient changes with a hundredth of the tolerances, relative in the "
+          "same way; only with `complex_step`, without `solver.sensitivity_tolerance`, and if such "
+          "a run succeeds"),
+      field(
+          "differences",
+          [](const C& one) {
+            return one.independent.evaluations > 0
+                       ? std::optional<IndependentCheck>(one.independent)
+                       : std::nullopt;
+          },
+          "of the objective, which rest on nothing that the gradient's own steps share"));
 }
 
 }  // namespace codesign

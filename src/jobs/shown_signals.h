@@ -17,8 +17,8 @@ namespace codesign {
 struct ShownSignal {
   SignalDescription signal;
   std::string unit;  ///< SI; empty: none
-  std::optional<double> lower,
-      upper;  ///< limits of the URDF at one design, whether the study enforces them or not
+  /// limits of the URDF at one design, whether the study enforces them or not
+  std::optional<double> lower, upper;
 };
 
 /// The signals of initial.csv and tuned.csv: default_signals(), then the efforts that controllers

@@ -31,18 +31,12 @@ std::string evaluations_of(int evaluations) {
 
 Json point_json(const Problem& problem, const std::vector<std::string>& names,
                 const TradeoffPoint& point) {
-  Json object = {{"kind", kind_of(point)},
-                 {"anchor", point.is_anchor},
-                 {"place", std::vector<double>(point.place.begin(), point.place.end())},
-                 {"status", to_json(point.status)},
-                 {"termination", point.termination},
-                 {"stationarity", point.stationarity}};
+  Json object = record_json(point);
   if (is_found(point)) {
     object["objectives"] = by_name(names, point.objectives);
     object["parameters"] = parameters_json(problem, problem.parameters(point.rho));
   }
   add_fields(point.cost, &object);
-  object["warnings"] = point.warnings;
   return object;
 }
 
@@ -58,8 +52,7 @@ Json tradeoff_json(const Problem& problem, const TradeoffResult& result) {
     object["ideal"] = by_name(result.names, result.ideal);
     object["nadir"] = by_name(result.names, result.nadir);
   }
-  object["smallest_gap"] = result.smallest_gap;
-  object["largest_gap"] = result.largest_gap;
+  add_fields(result, &object);
   add_fields(result.cost, &object);
   add_statistics(result.cost.statistics, &object);
   return object;

@@ -58,9 +58,9 @@ template <class T>
 struct JointDynamicsConstants {
   T damping{0.0}, dry_friction{0.0};                          ///< `<dynamics>`
   T stiffness{0.0}, spring_damping{0.0}, free_position{0.0};  ///< torsion spring
-  T lower{0.0}, upper{0.0},
-      effort{0.0};        ///< valid only if LimitDescription::bounds_position() or bounds_effort()
-  StopConstants<T> stop;  ///< valid if the study enforces the joint's limits
+  /// valid only if LimitDescription::bounds_position() or bounds_effort()
+  T lower{0.0}, upper{0.0}, effort{0.0};
+  StopConstants<T> stop;                  ///< valid if the study enforces the joint's limits
   T gear_ratio{1.0}, rotor_inertia{0.0};  ///< n and J_r of an actuator
   T armature{0.0};                        ///< JointDescription::armature
   /// unit vector in the axes of the body that carries the rotor

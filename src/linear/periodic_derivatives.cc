@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linear/periodic_loop.h"
+#include "linear/opened_period.h"
 #include "math/linear_systems.h"
 
 namespace codesign {
@@ -99,7 +99,7 @@ Part part_of(const Period& loop, double frequency) {
   for (Eigen::Index k = 0; k < samples; ++k)
     turned[k] *= kImaginary * loop.period() * per * static_cast<double>(k);
   const auto form = [&](const Eigen::VectorXcd& a, const MatrixXcd& M, const Eigen::VectorXcd& b) {
-    return per * a.dot(product(M, b).col(0));
+    return part_at(a, product(M, b));
   };
   return {form(e, H.value, e), form(e, H.change, e),
           form(e, H.slope, e) + form(turned, H.value, e) + form(e, H.value, turned)};

@@ -19,76 +19,6 @@ MatrixXcd unit(Eigen::Index size) { return MatrixXcd::Identity(size, size); }
 
 }  // namespace
 
-OpenedPeriod::OpenedPeriod(const StateSpace& closed)
-    : OpenedPeriod(closed.A, closed.B, closed.C, closed.D, closed.period) {}
-
-// With w = u - y the closed loop from w to y becomes the open one from u to y.
-OpenedPeriod::OpenedPeriod(const Eigen::MatrixXd& closed_A, const Eigen::MatrixXd& closed_B,
-                           const Eigen::MatrixXd& closed_C, const Eigen::MatrixXd& closed_D,
-                           double time)
-    : period(time) {
-  const MatrixXcd per =
-      complex_solution(unit(closed_D.rows()) + closed_D.cast<Complex>(), unit(closed_D.rows()));
-  const Eigen::MatrixXd E = per.real();
-  C = E * closed_C;
-  D = E * closed_D;
-  A = closed_A - closed_B * C;
-  B = closed_B * E;
-}
-
-namespace {
-
-/// (I - k D)^-1 b: D is strictly lower triangular.
-MatrixXcd solved(const Eigen::MatrixXd& D, Complex factor, const MatrixXcd& b) {
-  MatrixXcd x = b;
-  for (Eigen::Index row = 1; row < D.rows(); ++row)
-    for (Eigen::Index column = 0; column < row; ++column)
-      if (D(row, column) != 0.0) x.row(row) += (factor * D(row, column)) * x.row(column);
-  return x;
-}
-
-}  // namespace
-
-MatrixXcd OpenedPeriod::outputs(Complex factor) const {
-  return solved(D, factor, C.cast<Complex>());
-}
-
-MatrixXcd OpenedPeriod::closed_by(Complex factor) const {
-  return A.cast<Complex>() + factor * product(B.cast<Complex>(), outputs(factor));
-}
-
-// With F = (I - k D)^-1: d(k F)/dk = F F.
-MatrixXcd OpenedPeriod::by_factor(Complex factor) const {
-  return product(B.cast<Complex>(), solved(D, factor, outputs(factor)));
-}
-
-double OpenedPeriod::frequency_of(Complex factor, const EigenTriple& pole) const {
-  return main_frequency(product(outputs(factor), pole.right).col(0), std::arg(pole.value), period);
-}
-
-Eigen::VectorXcd sinusoid(double frequency, Eigen::Index samples, double period) {
-  Eigen::VectorXcd values(samples);
-  for (Eigen::Index k = 0; k < samples; ++k)
-    values[k] =
-        std::polar(1.0, frequency * period * static_cast<double>(k) / static_cast<double>(samples));
-  return values;
-}
-
-double main_frequency(const Eigen::VectorXcd& samples, double angle, double period) {
-  const Eigen::Index count = samples.size();
-  double main = angle / period, largest = -1.0;
-  for (Eigen::Index m = -count / 2; m <= count / 2; ++m) {
-    const double frequency = (angle + 2.0 * kHalfTurn * static_cast<double>(m)) / period;
-    if (std::abs(frequency) * period > kHalfTurn * static_cast<double>(count) * (1.0 + 1e-9))
-      continue;
-    const double part = std::abs(sinusoid(frequency, count, period).dot(samples));
-    if (part <= largest * (1.0 + 1e-9)) continue;
-    largest = part;
-    main = frequency;
-  }
-  return main;
-}
-
 PeriodicLoop::PeriodicLoop(const StateSpace& closed)
     : closed_(closed), open_(closed), samples_(closed.B.cols()), period_(closed.period) {
   const std::vector<Pole> poles = poles_of(closed);
@@ -129,16 +59,16 @@ class AtSamples {
 }  // namespace
 
 Complex PeriodicLoop::closed_at(double frequency) const {
-  const MatrixXcd e = sinusoid(frequency, samples_, period_);
+  const Eigen::VectorXcd e = sinusoid(frequency, samples_, period_);
   const AtSamples H(closed_.A, closed_.B, closed_.C, closed_.D,
                     std::polar(1.0, frequency * period_));
-  return e.col(0).dot(H.of(e, 0.0).col(0)) / static_cast<double>(samples_);
+  return part_at(e, H.of(e, 0.0));
 }
 
 Complex PeriodicLoop::at(double frequency) const {
-  const MatrixXcd e = sinusoid(frequency, samples_, period_);
+  const Eigen::VectorXcd e = sinusoid(frequency, samples_, period_);
   const AtSamples L(open_.A, open_.B, open_.C, open_.D, std::polar(1.0, frequency * period_));
-  return -e.col(0).dot(L.of(e, 0.0).col(0)) / static_cast<double>(samples_);
+  return -part_at(e, L.of(e, 0.0));
 }
 
 /// The largest singular value of I + H, or H, by power iteration from that of the frequency before;

@@ -98,6 +98,12 @@ void reduce(Eigen::Index used, Matrix* A, Eigen::VectorXd* workspace) {
 
 }  // namespace
 
+Eigen::MatrixXd about_mean_of(Eigen::MatrixXd columns) {
+  if (columns.rows() > 0)
+    for (auto column : columns.colwise()) column.array() -= column.mean();
+  return columns;
+}
+
 SingularValues singular_values(const Eigen::MatrixXd& A, SingularVectors vectors) {
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, options(vectors));
   SingularValues result;

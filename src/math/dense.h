@@ -12,6 +12,9 @@ namespace codesign {
 // a loop over steps: they allocate. The classes PivotedQr and LeastNorm allocate only for matrices
 // of a shape that they have not had before.
 
+/// Columns without their means: x - mean(x).
+Eigen::MatrixXd about_mean_of(Eigen::MatrixXd columns);
+
 /// A = U diag(values) V^T, values in descending order; U and V are square and orthogonal.
 struct SingularValues {
   Eigen::VectorXd values;

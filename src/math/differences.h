@@ -14,8 +14,8 @@ namespace codesign {
 struct JacobianDifference {
   /// |J - R| / (1 + |R|); infinite if an entry is NaN, 1e300 if the sizes differ
   double largest = 0.0;
-  Eigen::Index row = -1,
-               column = -1;  ///< of that entry; -1 if all entries agree or the sizes differ
+  /// of that entry; -1 if all entries agree or the sizes differ
+  Eigen::Index row = -1, column = -1;
 };
 
 /// Compares a Jacobian with its reference of the same size, entry by entry.

@@ -31,29 +31,6 @@ Vector3<T> centre_of(const Constants<T>& constants, int body) {
 }
 
 template <class T>
-SpringDamperConstants<T> spring_constants(const RobotDescription& robot, const Topology& topology,
-                                          const SpringDamperDescription& spring,
-                                          const Constants<T>& constants,
-                                          const std::vector<T>& parameters) {
-  SpringDamperConstants<T> result;
-  const auto attach = [&](int link, const PoseDescription& origin, int* body, Vector3<T>* s) {
-    *body = topology.link_body[to_index(link)];
-    if (*body == Topology::kMassless)
-      throw InputError({spring.where, "<codesign:spring_damper name=\"" + spring.name + "\">",
-                        "a spring cannot pull on a link without <inertial>",
-                        robot.links[to_index(link)].name, "a link with an <inertial>"});
-    *s = constants.links[to_index(link)].R * vector_at(origin.xyz, parameters) +
-         constants.links[to_index(link)].s;
-  };
-  attach(spring.predecessor, spring.predecessor_origin, &result.body_i, &result.s_i);
-  attach(spring.successor, spring.successor_origin, &result.body_j, &result.s_j);
-  result.stiffness = spring.stiffness.at(parameters);
-  result.damping = spring.damping.at(parameters);
-  result.free_length = spring.free_length.at(parameters);
-  return result;
-}
-
-template <class T>
 void set_coupling(const Coupling& coupling, const std::vector<T>& parameters,
                   CouplingConstants<T>* constants) {
   constants->coefficients.clear();
@@ -262,13 +239,12 @@ void evaluate_constants(const RobotDescription& robot, const Topology& topology,
     pair_constants(robot, topology, pair, centre_of(*constants, pair.body_i),
                    centre_of(*constants, pair.body_j), parameters, &constants->pairs[k]);
   }
-  constants->springs.clear();
-  for (const SpringDamperDescription& spring : robot.spring_dampers)
-    constants->springs.push_back(spring_constants(robot, topology, spring, *constants, parameters));
-  constants->contacts.clear();
-  for (const ContactDescription& contact : robot.contacts)
-    constants->contacts.push_back(
-        contact_constants(robot, topology, contact, constants->links, parameters));
+  for_each_link_element_list(robot, *constants, [&](const auto& elements, auto& numbers) {
+    numbers.clear();
+    for (const auto& element : elements)
+      numbers.push_back(
+          link_element_constants(robot, topology, element, constants->links, parameters));
+  });
   constants->couplings.resize(topology.couplings.size());
   for (std::size_t k = 0; k < topology.couplings.size(); ++k)
     set_coupling(topology.couplings[k], parameters, &constants->couplings[k]);
@@ -289,13 +265,12 @@ std::string find_impossible(const RobotDescription& robot, const Topology& topol
     if (std::string fault = friction_fault(topology.pairs[k], pair.friction); !fault.empty())
       return fault;
   }
-  for (std::size_t k = 0; k < robot.spring_dampers.size(); ++k)
-    if (!std::isfinite(constants.springs[k].stiffness + constants.springs[k].damping +
-                       constants.springs[k].free_length))
-      return "spring-damper '" + robot.spring_dampers[k].name + "' is not finite";
-  for (std::size_t k = 0; k < robot.contacts.size(); ++k)
-    if (std::string fault = contact_fault(robot.contacts[k], constants.contacts[k]); !fault.empty())
-      return fault;
+  std::string of_elements;
+  for_each_link_element_list(robot, constants, [&](const auto& elements, const auto& numbers) {
+    for (std::size_t k = 0; k < elements.size() && of_elements.empty(); ++k)
+      of_elements = link_element_fault(elements[k], numbers[k]);
+  });
+  if (!of_elements.empty()) return of_elements;
   for (std::size_t k = 0; k < topology.couplings.size(); ++k) {
     double sum = constants.couplings[k].offset;
     for (double coefficient : constants.couplings[k].coefficients) sum += coefficient;

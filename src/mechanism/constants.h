@@ -11,6 +11,7 @@
 #include "mechanism/contact_constants.h"
 #include "mechanism/mass_properties.h"
 #include "mechanism/rigid_groups.h"
+#include "mechanism/spring_constants.h"
 #include "mechanism/topology.h"
 
 namespace codesign {
@@ -24,14 +25,6 @@ struct BodyConstants {
   Vector3<T> centre = Vector3<T>::Zero();  ///< centre of mass in the base link's frame [m]
 };
 
-/// A spring-damper between two points; theory (13b).
-template <class T>
-struct SpringDamperConstants {
-  int body_i = -1, body_j = -1;                                   ///< -1: the ground
-  Vector3<T> s_i = Vector3<T>::Zero(), s_j = Vector3<T>::Zero();  ///< the points on the bodies [m]
-  T stiffness{0.0}, damping{0.0}, free_length{0.0};               ///< [N/m], [N s/m], [m]
-};
-
 /// The row sum_k coefficients[k] theta_k - offset = 0; theory (8a). Terms in the order of
 /// Coupling::terms.
 template <class T>
@@ -40,17 +33,28 @@ struct CouplingConstants {
   T offset{0.0};  ///< [rad or m]
 };
 
+/// The numbers of the elements between two links, as RobotDescription has them.
+template <class T>
+struct LinkElementConstants {
+  std::vector<SpringDamperConstants<T>> springs;
+  std::vector<ContactConstants<T>> contacts;
+};
+/// Calls visit(list of the model, list of its numbers) for each kind.
+template <class Numbers, class Visit>
+void for_each_link_element_list(const RobotDescription& of, Numbers& numbers, const Visit& visit) {
+  visit(of.spring_dampers, numbers.springs);
+  visit(of.contacts, numbers.contacts);
+}
+
 /// All numbers of a mechanism for one design. Indices as in Topology and RobotDescription.
 template <class T>
-struct Constants {
+struct Constants : LinkElementConstants<T> {
   std::vector<BodyConstants<T>> bodies;
   std::vector<PairConstants<T>> pairs;
   /// per link; valid for links that belong to a body or the ground
   std::vector<LinkConstants<T>> links;
   /// per joint: its frame, fixed in the child (of a loop: the successor); valid likewise
   std::vector<LinkConstants<T>> joint_frames;
-  std::vector<SpringDamperConstants<T>> springs;
-  std::vector<ContactConstants<T>> contacts;  ///< as RobotDescription::contacts
   std::vector<CouplingConstants<T>> couplings;
 };
 
@@ -59,7 +63,7 @@ struct Constants {
 /// @param workspace, constants overwritten; their memory is used again, so that later designs of
 /// the same mechanism allocate nothing.
 /// @throws InputError for a spring-damper or a contact of a link without <inertial>, and as
-/// contact_constants().
+/// link_element_constants().
 template <class T>
 void evaluate_constants(const RobotDescription& robot, const Topology& topology,
                         const std::vector<T>& parameters, MassWorkspace<T>* workspace,

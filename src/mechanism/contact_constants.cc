@@ -84,9 +84,10 @@ bool is_axial(const ContactDescription& contact) {
 }  // namespace
 
 template <class T>
-ContactConstants<T> contact_constants(const RobotDescription& robot, const Topology& topology,
-                                      const ContactDescription& contact, const LinkFrames<T>& links,
-                                      const std::vector<T>& parameters) {
+ContactConstants<T> link_element_constants(const RobotDescription& robot, const Topology& topology,
+                                           const ContactDescription& contact,
+                                           const LinkFrames<T>& links,
+                                           const std::vector<T>& parameters) {
   ContactConstants<T> c;
   c.surface = contact_side(robot, topology, contact, contact.surface, links, parameters);
   c.points = contact_side(robot, topology, contact, contact.points, links, parameters);
@@ -114,14 +115,15 @@ ContactConstants<T> contact_constants(const RobotDescription& robot, const Topol
   return c;
 }
 
-#define CODESIGN_INSTANTIATE(T)                                                               \
-  template ContactConstants<T> contact_constants<T>(const RobotDescription&, const Topology&, \
-                                                    const ContactDescription&,                \
-                                                    const LinkFrames<T>&, const std::vector<T>&);
+#define CODESIGN_INSTANTIATE(T)                                                                  \
+  template ContactConstants<T> link_element_constants<T>(                                        \
+      const RobotDescription&, const Topology&, const ContactDescription&, const LinkFrames<T>&, \
+      const std::vector<T>&);
 CODESIGN_FOR_EACH_FORMULA_TYPE(CODESIGN_INSTANTIATE)
 #undef CODESIGN_INSTANTIATE
 
-std::string contact_fault(const ContactDescription& contact, const ContactConstants<double>& c) {
+std::string link_element_fault(const ContactDescription& contact,
+                               const ContactConstants<double>& c) {
   const std::string of = " of contact '" + contact.name + "' is ";
   if (!contact.clearance.empty() && !(c.surface.clearance > 0.0))
     return std::string(is_axial(contact) ? "axial" : "radial") + " of " + contact.clearance +

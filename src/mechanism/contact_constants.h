@@ -8,16 +8,10 @@
 #include "forces/contact_law.h"
 #include "forces/contact_shape.h"
 #include "math/scalar.h"
+#include "mechanism/link_frames.h"
 #include "mechanism/topology.h"
 
 namespace codesign {
-
-/// The pose of a frame in the frame of its body, or in the ground.
-template <class T>
-struct LinkConstants {
-  Vector3<T> s = Vector3<T>::Zero();      ///< origin [m]
-  Matrix3<T> R = Matrix3<T>::Identity();  ///< frame axes to body axes
-};
 
 /// One side of a contact at one design.
 template <class T>
@@ -36,18 +30,16 @@ struct ContactConstants {
   FrictionConstants<T> friction;
 };
 
-/// Per link, as in Constants.
-template <class T>
-using LinkFrames = std::vector<LinkConstants<T>>;
-
 /// The numbers of a contact. @param links of Constants.
 /// @throws InputError for a link without `<inertial>`, and for two links of one body.
 template <class T>
-ContactConstants<T> contact_constants(const RobotDescription& robot, const Topology& topology,
-                                      const ContactDescription& contact, const LinkFrames<T>& links,
-                                      const std::vector<T>& parameters);
+ContactConstants<T> link_element_constants(const RobotDescription& robot, const Topology& topology,
+                                           const ContactDescription& contact,
+                                           const LinkFrames<T>& links,
+                                           const std::vector<T>& parameters);
 
 /// A sentence that names the first impossible number of a contact's design; empty if there is none.
-std::string contact_fault(const ContactDescription& contact, const ContactConstants<double>& c);
+std::string link_element_fault(const ContactDescription& contact,
+                               const ContactConstants<double>& c);
 
 }  // namespace codesign

@@ -15,8 +15,8 @@ struct Topology;
 /// One joint coordinate in a coupling, with the coefficient sign * factor.
 struct CouplingTerm {
   int joint = -1;
-  int pair = -1,
-      element = -1;  ///< indices of the coordinate: in Topology::pairs and in the pair's chain
+  /// indices of the coordinate: in Topology::pairs and in the pair's chain
+  int pair = -1, element = -1;
   double sign = 1.0;
   Quantity factor{1.0};  ///< [-], or [m/rad], [rad/m] between a slide and a turn
 };

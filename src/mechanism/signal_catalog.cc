@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "description/clearance.h"
-#include "description/link_elements.h"
+#include "description/robot.h"
 #include "mechanism/signal_axes.h"
 #include "mechanism/topology.h"
 #include "text/nearest_name.h"
@@ -57,9 +57,9 @@ Offer offer_of(const std::string& name, const RobotDescription& robot,
         SignalOwner::kJoint, [&](const SignalFacts& facts) { return facts.is_of(joint); }, &offer);
     offer.welded = !is_movable(joint);
     if (has_clearance(robot, joint))
-      offer.contact = name + "_clearance";
+      offer.contact = clearance_contact(name);
     else if (joint.is_play)
-      offer.contact = name.substr(0, name.rfind('_')) + "_clearance";
+      offer.contact = contact_of_play(name);
   }
   for (const ControllerDescription& controller : controllers) {
     if (controller.name != name) continue;

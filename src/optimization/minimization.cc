@@ -316,8 +316,8 @@ class Minimization {
   OptimizationResult& result_ = trials_.result();
   std::vector<Constraint> constraints_;
   std::string failure_;
-  double worst_ = 0.0,
-         unit_ = 1.0;  ///< worst objective so far; NLopt gets objectives divided by `unit_`
+  /// worst objective so far; NLopt gets objectives divided by `unit_`
+  double worst_ = 0.0, unit_ = 1.0;
   bool moves_inside_ = false;
   bool is_at_limit_ = false;  ///< whether the search asked for more evaluations than it may have
   double violation_before_ = 0.0;  ///< best_violation() when the search was last restarted

@@ -18,6 +18,7 @@
 #include "problem/problem_warnings.h"
 #include "problem/variants.h"
 #include "reading/study/study_reader.h"
+#include "reading/study/study_values.h"
 #include "reading/urdf/floating_base.h"
 #include "reading/urdf/urdf_reader.h"
 #include "text/nearest_name.h"
@@ -33,21 +34,13 @@ std::size_t find_parameter(const Study& study, const std::string& name) {
   const std::vector<Parameter>& parameters = study.parameters;
   for (std::size_t k = 0; k < parameters.size(); ++k)
     if (parameters[k].name == name) return k;
-  std::vector<std::string> known;
-  for (const Parameter& parameter : parameters) known.push_back(parameter.name);
-  throw unknown_name({kSettings, 0}, name, "parameter", name, known);
+  throw unknown_name({kSettings, 0}, name, "parameter", name, names_of(parameters));
 }
 
 /// The index of a parameter that may have this value.
 std::size_t find_settable(const Study& study, const std::string& name, double value) {
   const std::size_t index = find_parameter(study, name);
-  const Parameter& parameter = study.parameters[index];
-  if (!std::isfinite(value) || value < parameter.lower || value > parameter.upper)
-    throw InputError({{kSettings, 0},
-                      name,
-                      "value outside the parameter's bounds",
-                      to_decimal(value),
-                      range_of(parameter)});
+  require_within_bounds(value, study.parameters[index], {kSettings, 0}, name);
   return index;
 }
 

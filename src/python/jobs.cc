@@ -79,13 +79,7 @@ std::vector<RecordedSetting> settings_of(const Study& study, const RecordedArray
   for (const auto& [name, value] : arrays.settings) {
     const std::string element = arrays.element + ".set." + name;
     const int index = untuned_parameter(name, study, SourceLocation{"arrays", 0}, element);
-    const Parameter& parameter = study.parameters[to_index(index)];
-    if (!(parameter.lower <= value && value <= parameter.upper))
-      throw InputError({{"arrays", 0},
-                        element,
-                        "the value lies outside the bounds of the parameter",
-                        to_decimal(value),
-                        range_of(parameter)});
+    require_within_bounds(value, study.parameters[to_index(index)], {"arrays", 0}, element);
     settings.push_back({index, value});
   }
   return settings;
@@ -96,9 +90,11 @@ std::vector<RecordingDescription> descriptions_of(const Problem& problem,
   const Study& study = study_of(problem);
   std::vector<RecordingDescription> descriptions;
   for (const RecordedArrays& arrays : list) {
-    for (const SignalSamples& samples : arrays.signals)
-      check_signal(samples.signal, robot_of(problem), study.controllers,
-                   arrays.element + ".signals");
+    for (const SignalSamples& samples : arrays.signals) {
+      const std::string element = arrays.element + ".signals";
+      check_signal(samples.signal, robot_of(problem), study.controllers, element);
+      require_known(samples.signal, names_of(study.parameters), samples.signal.where, element);
+    }
     RecordingDescription& description = descriptions.emplace_back();
     description.file = "arrays";
     description.is_bag = true;  // read from memory

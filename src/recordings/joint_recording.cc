@@ -159,7 +159,8 @@ std::vector<JointRecording> load(const std::vector<RecordingDescription>& descri
     add_masks(description, &part);
     check_part(context.robot, &part, context.warnings, context.cancel);
     if (is_set(context.cancel)) break;
-    std::vector<JointRecording> pieces = without_gaps(part, description.gaps, context.warnings);
+    std::vector<JointRecording> pieces =
+        without_gaps(part, description.gaps, context.warnings, !part.is_given);
     require_one_piece(description, pieces);
     for (JointRecording& piece : pieces)
       if (!is_set(context.cancel)) even_stamps(&piece, context.warnings);

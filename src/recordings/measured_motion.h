@@ -54,8 +54,8 @@ Eigen::VectorXd integral(const Eigen::VectorXd& samples, double step);
 /// The motion of a joint at equal steps, and its recorded effort; in the joint's units.
 struct JointMotion {
   std::string joint;
-  Eigen::VectorXd position, velocity,
-      acceleration;                ///< empty if the recording does not determine them
+  /// empty if the recording does not determine them
+  Eigen::VectorXd position, velocity, acceleration;
   Eigen::VectorXd effort;          ///< as recorded, not filtered; empty if not recorded
   bool velocity_measured = false;  ///< false: the velocity is the derivative of the position
   /// false: the position is the integral of the velocity from JointSamples::start

@@ -296,7 +296,7 @@ JointRecording checked_part(const JointRecording& recording, double from, double
 }
 
 std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRule rule,
-                                         Warnings* warnings) {
+                                         Warnings* warnings, bool has_rule) {
   const double period = median_period(recording.times);
   const std::vector<std::size_t> ends = piece_ends(recording.times, kGapPeriods * period);
   std::vector<JointRecording> pieces;
@@ -308,8 +308,8 @@ std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRul
                   " s, where the period is " + readable(period, 4) +
                   " s: the recording paused, samples were lost, or the clock was set",
               "",
-              "pauses of at most " + readable(kGapPeriods) +
-                  " periods; `gaps: split` uses the pieces as recordings of their own");
+              "pauses of at most " + readable(kGapPeriods) + " periods" +
+                  (has_rule ? "; `gaps: split` uses the pieces as recordings of their own" : ""));
     if (end - begin >= kLeastSamples)
       pieces.push_back(part_of(recording, begin, end));
     else

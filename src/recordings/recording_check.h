@@ -25,9 +25,10 @@ JointRecording checked_part(const JointRecording& recording, double from, double
 /// The recording in pieces without gaps. With GapRule::kSplit, pieces of fewer than kLeastSamples
 /// samples are left out, with the warning `recording_piece_dropped`; interpolated pauses of more
 /// than 1.5 periods give `recording_samples_missing`.
+/// @param has_rule whether an entry of a study can say `gaps: split`, as the message then suggests.
 /// @throws InputError with the place of the first gap for GapRule::kRefuse, or if nothing is left.
 std::vector<JointRecording> without_gaps(const JointRecording& recording, GapRule rule,
-                                         Warnings* warnings);
+                                         Warnings* warnings, bool has_rule = true);
 
 /// Warns of single samples, three in a row at most, far outside the range of all others:
 /// `recording_spike`, with the first one's place. @param cancel ends it before the next column;

@@ -106,8 +106,8 @@ class RosenbrockGradient final : public GradientEngine {
   const CompiledSystem& system_;
   RosenbrockIntegrator integrator_;
   const int most_lanes_;
-  int first_ = -1,
-      lanes_ = 0;  ///< first parameter of `groups_`, and number of parameters in `groups_`
+  /// first parameter of `groups_`, and number of parameters in `groups_`
+  int first_ = -1, lanes_ = 0;
   std::optional<LaneGroups<Group>> groups_;
   std::unique_ptr<ControlTangent> control_;  ///< unless judges_parameters()
   RosenbrockIntegrator::BeforeAccept stages_;

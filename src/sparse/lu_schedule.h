@@ -71,9 +71,9 @@ class LuSchedule {
   std::size_t n_;
   std::vector<int> row_of_, column_of_;
   std::vector<double> inverse_scale_;
-  std::vector<int> start_,
-      diagonal_;             ///< per row: index of its first entry (n + 1 of them) and of its pivot
-  std::vector<int> column_;  ///< of each entry of the factors
+  /// per row: index of its first entry (n + 1 of them) and of its pivot
+  std::vector<int> start_, diagonal_;
+  std::vector<int> column_;       ///< of each entry of the factors
   std::vector<int> source_slot_;  ///< per entry of A: the entry of the factors that it initializes
   std::vector<double> source_scale_;  ///< per entry of A: 1 / scale of its row
   /// the entry that each product of the elimination is subtracted from, in order; empty if there

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "math/arrays.h"
+#include "math/dense.h"
 #include "statistics/parameter_covariance.h"
 
 namespace codesign {
@@ -226,9 +228,7 @@ Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths
     add_series(running_sums(terms, begin, length), block, &generator, &result);
     begin += length;
   }
-  const Eigen::RowVectorXd mean = result.colwise().mean();
-  result.rowwise() -= mean;
-  return result;
+  return about_mean_of(std::move(result));
 }
 
 double empirical_quantile(Eigen::VectorXd values, double fraction) {
@@ -248,8 +248,7 @@ Whiteness ljung_box(const Eigen::VectorXd& residuals, const SeriesLengths& lengt
   Eigen::VectorXd products = Eigen::VectorXd::Zero(result.lags + 1);
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
-    const Eigen::VectorXd centered =
-        residuals.segment(begin, length).array() - residuals.segment(begin, length).mean();
+    const Eigen::VectorXd centered = about_mean_of(residuals.segment(begin, length));
     for (Eigen::Index lag = 0; lag < std::min<Eigen::Index>(length, result.lags + 1); ++lag)
       products[lag] += centered.head(length - lag).dot(centered.tail(length - lag));
     begin += length;

@@ -14,8 +14,8 @@ namespace codesign {
 template <class T>
 struct DrivenJoint {
   JointPose<T> pose;
-  T position{0.0}, rate{0.0},
-      acceleration{0.0};  ///< [rad or m], per s, per s^2; the position is needed of slides only
+  /// [rad or m], per s, per s^2; the position is needed of slides only
+  T position{0.0}, rate{0.0}, acceleration{0.0};
 };
 
 /// The load tau_k that one joint of the tree must exert for given accelerations of all joints, by

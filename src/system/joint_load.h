@@ -86,8 +86,8 @@ using JointLoadPart =
 
 /// All loads along one joint coordinate.
 struct JointLoad {
-  int pair = -1,
-      element = -1;  ///< the coordinate: index in Topology::pairs and in the pair's chain
+  /// the coordinate: index in Topology::pairs and in the pair's chain
+  int pair = -1, element = -1;
   std::vector<JointLoadPart> parts;  ///< those behind the gear at the end
   /// whether the torque that a gear transmits to the joint is known, ...
   bool has_gear_torque = false;

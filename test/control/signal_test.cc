@@ -181,9 +181,11 @@ TEST(ResolveSignal, AnExpressionHasItsSignalsInOrderParametersAndTheTime) {
 TEST(ResolveSignal, ASpringHasForceLengthAndSpeed) {
   Fixture fixture;
   fixture.robot.spring_dampers.push_back({"strut", 0, 2, {}, {}, 1.0, 1.0, 1.0, {}});
-  EXPECT_EQ(fixture.resolve("strut/force").front().kind, SignalKind::kSpringForce);
+  EXPECT_EQ(fixture.resolve("strut/force").front().kind,
+            find_quantity(SignalOwner::kSpring, "force")->kind);
   EXPECT_EQ(fixture.resolve("strut/length").front().link_element, 0);
-  EXPECT_EQ(fixture.rate("strut/length").front().kind, SignalKind::kSpringSpeed);
+  EXPECT_EQ(fixture.rate("strut/length").front().kind,
+            find_quantity(SignalOwner::kSpring, "speed")->kind);
   EXPECT_NE(fixture.refusal("strut/effort").find("force"), std::string::npos);
 }
 

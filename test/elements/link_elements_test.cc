@@ -3,8 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include "description/link_elements.h"
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "description/robot.h"
 #include "mechanism/signal_catalog.h"
+#include "paths.h"
 
 namespace codesign {
 namespace {
@@ -17,6 +24,37 @@ TEST(LinkElements, HaveValuesOfEachKind) {
   EXPECT_EQ(kinds, values);
   EXPECT_EQ(link_element_tags(),
             (std::vector<std::string>{"codesign:spring_damper", "codesign:contact"}));
+}
+
+/// Files of src/, without those that are of spring-dampers alone, that name them.
+std::set<std::string> files_that_name_spring_dampers() {
+  const auto names_them = [](const std::string& text) {
+    for (const char* name :
+         {"SpringDamper", "spring_damper", "SpringForce", "kSpring,", "spring_at"})
+      if (text.find(name) != std::string::npos) return true;
+    return false;
+  };
+  const std::set<std::string> own{"forces/compliance.h", "elements/spring_damper.h",
+                                  "mechanism/spring_constants.h", "mechanism/spring_constants.cc",
+                                  "reading/urdf/spring_reader.cc"};
+  const std::filesystem::path root = std::filesystem::path(source_dir()) / "src";
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (!entry.is_regular_file()) continue;
+    std::ifstream file(entry.path());
+    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string name = entry.path().lexically_relative(root).string();
+    if (own.count(name) == 0 && names_them(text)) found.insert(name);
+  }
+  return found;
+}
+
+// What a new kind touches beside files of its own, doc/architecture.md.
+TEST(LinkElements, AKindStandsInFivePlaces) {
+  EXPECT_EQ(files_that_name_spring_dampers(),
+            (std::set<std::string>{"description/robot.h", "description/signal_table.h",
+                                   "elements/link_elements.h", "mechanism/constants.h",
+                                   "reading/urdf/joint_reader.h"}));
 }
 
 TEST(LinkElements, HaveThePowersThatTheyLose) {

@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include "elements/spring_damper.h"
 #include "equations/equations_fixture.h"
 #include "equations/formulas.h"
 #include "equations/generic_state.h"
@@ -51,7 +52,7 @@ TEST_F(EquationsSpringsTest, PullsAreEqualAndOpposite) {
   const Eigen::Vector3d sum =
       G.segment<3>(0) + G.segment<3>(kBodySize) - Eigen::Vector3d(0.0, 0.0, 9.81 * mass);
   real.formulas().load(state);
-  const SpringForce<double> hook = real.formulas().spring(1);
+  const SpringForce<double> hook = spring_at(real.formulas().view(), 1);
   EXPECT_LT((sum - hook.pull).norm(), 1e-13);
   EXPECT_NEAR(hook.tension, 10.0 * (hook.length - 0.1), 1e-13);
   const Eigen::Vector3d along =

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cases/shipped.h"
+#include "elements/spring_damper.h"
 #include "equations/equations_fixture.h"
 #include "equations/formulas.h"
 #include "equations/generic_state.h"
@@ -179,7 +180,7 @@ std::vector<Wrench> demanded(Compiled* c) {
   }
   for (std::size_t s = 0; s < c->equations.constants().springs.size(); ++s) {
     const SpringDamperConstants<double>& spring = c->equations.constants().springs[s];
-    const Eigen::Vector3d pull = c->equations.formulas().spring(s).pull;
+    const Eigen::Vector3d pull = spring_at(c->equations.formulas().view(), s).pull;
     const auto end = [&](int body, const Eigen::Vector3d& at, double sign) {
       const BodyKinematics<double>& k = c->equations.formulas().body(body);
       if (body >= 0)

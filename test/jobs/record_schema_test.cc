@@ -70,8 +70,11 @@ TEST(RecordSchema, FollowsFromTypesAndRows) {
 /// The results that documents have, by the names that doc/schema/documents.json gives them.
 const std::map<std::string, Json>& schemas() {
   static const std::map<std::string, Json> kSchemas{
+      {"before_after", record_schema<BeforeAfter>()},
       {"choice", record_schema<ChoiceResult>()},
       {"combination", record_schema<BaseParameter>()},
+      {"compared", record_schema<ComparedTrajectory>()},
+      {"comparison", record_schema<ModelComparison>()},
       {"counts", record_schema<Counts>()},
       {"differences", record_schema<IndependentCheck>()},
       {"event", record_schema<Event>()},
@@ -79,6 +82,7 @@ const std::map<std::string, Json>& schemas() {
       {"excitation_start", record_schema<ExcitationStart>()},
       {"identification", record_schema<IdentificationResult>()},
       {"identified", record_schema<IdentifiedNumber>()},
+      {"judged_pair", record_schema<JudgedPair>()},
       {"kept_limit", record_schema<KeptLimit>()},
       {"largest", record_schema<Extreme>()},
       {"limit", record_schema<LimitCrossing>()},
@@ -86,6 +90,8 @@ const std::map<std::string, Json>& schemas() {
       {"margin", record_schema<AtFrequency>()},
       {"method_change", record_schema<MethodChange>()},
       {"mode", record_schema<LinearMode>()},
+      {"multistart", record_schema<MultistartResult>()},
+      {"near_links", record_schema<NearLinks>()},
       {"optimum", record_schema<Optimum>()},
       {"output_fit", record_schema<OutputFit>()},
       {"predicted", record_schema<PredictedNumber>()},
@@ -94,8 +100,12 @@ const std::map<std::string, Json>& schemas() {
       {"search_cost", record_schema<SearchCost>()},
       {"state_space", record_schema<StateSpace>()},
       {"statistics", record_schema<Statistics>()},
+      {"status", record_schema<Status>()},
+      {"tradeoff", record_schema<TradeoffResult>()},
+      {"tradeoff_point", record_schema<TradeoffPoint>()},
       {"uncertainty", record_schema<Uncertainty>()},
       {"validation", record_schema<Validation>()},
+      {"verification", record_schema<GradientCheck>()},
       {"warning", record_schema<Warning>()},
       {"watched", record_schema<WatchedResult>()},
       {"whiteness", record_schema<Whiteness>()}};

@@ -216,7 +216,8 @@ TEST_F(FinishedPendulum, AValueBeyondTheBoundsIsBadInput) {
     read_finished_job(path());
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("value outside the parameter's bounds (value: 7.5"),
+    EXPECT_NE(std::string(error.what())
+                  .find("the value lies outside the bounds of the parameter Kp (value: 7.5"),
               std::string::npos)
         << error.what();
   }

@@ -75,13 +75,5 @@ TEST(PeriodicLoop, AtItsGainMarginAPoleIsOnTheCircle) {
   EXPECT_NEAR(beyond.gain_reduction->value, 1.0 / 1.1, 2e-6);
 }
 
-TEST(PeriodicLoop, TheMainFrequencyOfSamples) {
-  const double period = 0.5;
-  for (const double w : {1.0, 30.0, -45.0, 61.0})
-    EXPECT_NEAR(
-        main_frequency(sinusoid(w, 10, period), std::remainder(w * period, 2.0 * kPi), period), w,
-        1e-9);
-}
-
 }  // namespace
 }  // namespace codesign

@@ -145,6 +145,14 @@ TEST(GeneralEigen, TurnsAndStretches) {
   EXPECT_EQ(general_eigen(Eigen::MatrixXd()).values.size(), 0);
 }
 
+TEST(AboutMean, OfEachColumn) {
+  Eigen::MatrixXd A(4, 2), expected(4, 2);
+  A << 1.0, 10.0, 2.0, 10.0, 3.0, 10.0, 6.0, 12.0;
+  expected << -2.0, -0.5, -1.0, -0.5, 0.0, -0.5, 3.0, 1.5;
+  EXPECT_EQ(about_mean_of(A), expected);
+  EXPECT_EQ(about_mean_of(Eigen::MatrixXd(0, 2)).cols(), 2);
+}
+
 }  // namespace
 
 }  // namespace codesign

@@ -55,8 +55,9 @@ class Recordings(unittest.TestCase):
         for name, words in (("mass", "tune"), ("viscos", "viscous")):
             with self.assertRaisesRegex(codesign.InputError, words):
                 problem.identify(codesign.Recording(t, q, effort, set={name: 0.7}))
-        with self.assertRaisesRegex(codesign.InputError, "bounds"):
-            problem.identify(codesign.Recording(t, q, effort, set={"viscous": 7.0}))
+        for value in (7.0, float("nan")):
+            with self.assertRaisesRegex(codesign.InputError, r"arrays\.set\.viscous: .*outside the bounds of the parameter viscous .*\[0, 5\]"):
+                problem.identify(codesign.Recording(t, q, effort, set={"viscous": value}))
 
     def test_a_mask(self):
         t, q, effort = recorded()
@@ -98,6 +99,14 @@ class Recordings(unittest.TestCase):
         fit = codesign.Problem(ARM, "duration: 4.0\nparameters: {mass: {}}\n").identify(recording)
         self.assertAlmostEqual(fit.numbers["mass"].value, 2.0, delta=5e-3)
         self.assertIn("shoulder/reaction_force/z", fit.recorded)
+
+    def test_a_signal_of_an_unknown_parameter(self):
+        """An expression of signals may read parameters and the time, and nothing else."""
+        t, q, effort = recorded()
+        problem = codesign.Problem(ARM, "duration: 4.0\nparameters: {mass: {}}\n")
+        for name in ("${2*viscos*shoulder/velocity}", "${T*shoulder/velocity}"):
+            with self.assertRaisesRegex(codesign.InputError, r"arrays\.signals: unknown parameter"):
+                problem.identify(codesign.Recording(t, q, effort, signals={name: q}))
 
 
 class Regressor(unittest.TestCase):

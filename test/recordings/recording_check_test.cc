@@ -67,6 +67,10 @@ TEST(WithoutGaps, RefusesAGapAndNamesItsPlace) {
   expect_word(fault.message, "a gap of 3.01 s, where the period is 0.01 s");
   expect_word(fault.message, "line 42");
   expect_word(fault.allowed, "gaps: split");
+  // No entry of a study describes it.
+  const InputFault alone =
+      refusal_of([&] { without_gaps(paused(3.0), GapRule::kRefuse, &warnings, false); });
+  EXPECT_EQ(alone.allowed, "pauses of at most 5 periods");
   EXPECT_EQ(without_gaps(swing(100), GapRule::kRefuse, &warnings).size(), 1U);
   EXPECT_TRUE(warnings.empty());
 }

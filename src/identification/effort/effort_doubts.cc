@@ -46,10 +46,6 @@ std::vector<std::vector<int>> counted_rows(const Eigen::MatrixXd& recorded,
   return rows;
 }
 
-Eigen::VectorXd about_mean_of(const Eigen::VectorXd& recorded) {
-  return recorded.array() - recorded.mean();
-}
-
 /// Viscous and dry friction and a rotor, per unit; rows x 3.
 Eigen::MatrixXd drive_line_columns(const Eigen::VectorXd& velocity,
                                    const Eigen::VectorXd& acceleration) {
@@ -158,8 +154,7 @@ bool is_factor_of_all(const EffortEvidence& evidence, std::size_t joint) {
   const auto rows = to_signed(counted.size());
   const Eigen::MatrixXd whole =
       evidence.by_x.middleRows(k * evidence.recorded.rows(), evidence.recorded.rows());
-  Eigen::MatrixXd free = whole(counted, Eigen::all);
-  free.rowwise() -= free.colwise().mean().eval();
+  const Eigen::MatrixXd free = about_mean_of(whole(counted, Eigen::all));
   const Eigen::VectorXd computed = evidence.of(joint, evidence.computed.col(k)),
                         recorded = evidence.of(joint, evidence.recorded.col(k));
   for (Eigen::Index i = 0; i < free.cols(); ++i)
@@ -169,7 +164,7 @@ bool is_factor_of_all(const EffortEvidence& evidence, std::size_t joint) {
   Eigen::MatrixXd scaled(rows, 4);
   scaled << computed, drive_line_columns(evidence.of(joint, evidence.velocity.col(k)),
                                          evidence.of(joint, evidence.acceleration.col(k)));
-  scaled.rowwise() -= scaled.colwise().mean().eval();
+  scaled = about_mean_of(std::move(scaled));
   for (Eigen::Index i = 1; i < scaled.cols(); ++i)
     if (share_left(scaled.col(i), by_numbers) < kHasIt) scaled.col(i).setZero();
   Eigen::MatrixXd left = scaled.rightCols(3);
@@ -298,7 +293,7 @@ DriveLineFit fit_drive_line(const Eigen::VectorXd& computed, const Eigen::Vector
   constexpr double kLeastPart = 0.1;
   Eigen::MatrixXd columns(computed.size(), kColumns);
   columns << computed, drive_line_columns(velocity, acceleration);
-  columns.rowwise() -= columns.colwise().mean().eval();
+  columns = about_mean_of(std::move(columns));
   const Eigen::VectorXd lengths = columns.colwise().norm().cwiseMax(1e-300);
   columns = columns * lengths.cwiseInverse().asDiagonal();
   const Eigen::VectorXd about_mean = about_mean_of(recorded);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "math/dense.h"
 #include "recordings/measured_motion.h"
 
 namespace codesign {
@@ -16,10 +17,6 @@ Eigen::VectorXd recorded_motion(const MeasuredMotion& motion, const std::string&
       return of.segment(motion.first, std::max<Eigen::Index>(0, motion.end - motion.first));
     }
   return {};
-}
-
-double squares_about_mean(const Eigen::VectorXd& column) {
-  return (column.array() - column.mean()).matrix().squaredNorm();
 }
 
 }  // namespace
@@ -44,8 +41,8 @@ std::optional<EffortDoubt> doubt_filter(const std::vector<JointRecording>& recor
                                                 joint);
     const Eigen::Index cut = (raw.size() - smooth.size()) / 2;
     const Eigen::VectorXd same = raw.segment(cut, smooth.size());
-    all += squares_about_mean(same);
-    removed += squares_about_mean(same - smooth);
+    all += about_mean_of(same).squaredNorm();
+    removed += about_mean_of(same - smooth).squaredNorm();
   }
   if (!(removed > kLeastLeft * all)) return std::nullopt;
   EffortDoubt doubt{joint, 0.0, "", 0.0};

@@ -82,8 +82,8 @@ struct IdentificationResult {
   /// sentences about numbers that the data do not determine
   std::vector<std::string> undetermined;
   std::vector<BaseParameter> combinations;  ///< what the data determine of these numbers
-  std::vector<OutputFit> data,
-      holdout;  ///< one per output; the holdout is empty if the study names none
+  /// one per output; the holdout is empty if the study names none
+  std::vector<OutputFit> data, holdout;
   /// of the data, or of the holdout where that alone was judged; empty if the start failed
   const std::vector<OutputFit>& outputs() const { return data.empty() ? holdout : data; }
   FittedSeries data_series, holdout_series;

@@ -47,8 +47,8 @@ using FitObserver = std::function<bool(const FitTrial&)>;
 
 /// Limits of a fit.
 struct FitProblem {
-  Eigen::VectorXd start, lower,
-      upper;  ///< the start lies within the bounds, which may be infinite or equal
+  /// the start lies within the bounds, which may be infinite or equal
+  Eigen::VectorXd start, lower, upper;
   LossOptions loss;
   int max_evaluations = 200;
   double relative_tolerance = 1e-6;  ///< of the cost

@@ -9,6 +9,7 @@
 
 #include "description/identification.h"
 #include "identification/fit/fit_variables.h"
+#include "math/dense.h"
 #include "mechanism_codesign/status.h"
 #include "statistics/time_series.h"
 
@@ -102,7 +103,7 @@ class RecordingResiduals : public ResidualSource {
 
 inline Eigen::MatrixXd RecordingResiduals::variation() const {
   const Eigen::MatrixXd count = counted();
-  if (count.size() == 0) return recorded().rowwise() - recorded().colwise().mean();
+  if (count.size() == 0) return about_mean_of(recorded());
   const Eigen::RowVectorXd means =
       recorded().cwiseProduct(count).colwise().sum().cwiseQuotient(count.colwise().sum());
   return (recorded().rowwise() - means).cwiseProduct(count);

@@ -9,6 +9,7 @@
 #include "engine/thread_engine.h"
 #include "identification/motion/segments.h"
 #include "math/arrays.h"
+#include "math/dense.h"
 #include "text/cancel.h"
 #include "text/number_text.h"
 
@@ -66,21 +67,20 @@ void warn_of_friction_states(const CompiledSystem& system, const IdentificationD
 
 /// The variation of each column, a first guess of the spread of its residuals.
 Eigen::VectorXd variation_of(const Eigen::MatrixXd& recorded) {
-  Eigen::VectorXd variation(recorded.cols());
-  for (Eigen::Index k = 0; k < recorded.cols(); ++k) {
-    variation[k] = std::sqrt((recorded.col(k).array() - recorded.col(k).mean()).square().mean());
-    if (!(variation[k] > 0.0)) variation[k] = 1.0;
-  }
+  Eigen::VectorXd variation =
+      about_mean_of(recorded).array().square().colwise().mean().sqrt().transpose();
+  for (double& each : variation)
+    if (!(each > 0.0)) each = 1.0;
   return variation;
 }
 
 /// Values without their mean, and without their slope over time if `has_slope`.
 Eigen::VectorXd without_line(const std::vector<double>& times, const Eigen::VectorXd& values,
                              bool has_slope) {
-  const Eigen::VectorXd about_mean = values.array() - values.mean();
+  const Eigen::VectorXd about_mean = about_mean_of(values);
   if (!has_slope || times.size() < 2) return about_mean;
   const Eigen::Map<const Eigen::VectorXd> t(times.data(), to_signed(times.size()));
-  const Eigen::VectorXd from_middle = t.array() - t.mean();
+  const Eigen::VectorXd from_middle = about_mean_of(t);
   return about_mean - from_middle * (from_middle.dot(about_mean) / from_middle.squaredNorm());
 }
 

@@ -55,8 +55,8 @@ struct SegmentSolution {
   /// output 0 first
   Eigen::MatrixXd jacobian;
   Eigen::MatrixXd slope;  ///< derivative of minus the best start by x
-  int runs = 0,
-      whole_runs = 0;  ///< number of simulations, and of these the number with all derivatives
+  /// number of simulations, and of these the number with all derivatives
+  int runs = 0, whole_runs = 0;
 };
 
 /// Eliminates the start of a segment, or finds the best one by Levenberg-Marquardt; doc/theory.md

@@ -49,17 +49,6 @@ void refuse_moving_end(const YamlValue& root, const std::string& key) {
                allowed + " beside excite");
 }
 
-/// Names without a slash are parameters or the time.
-void refuse_unknown_names(const SignalDescription& until, const ParameterTable& table,
-                          const YamlValue& value) {
-  for (const std::string& name : until.formula->names) {
-    if (name == "t" || name.find('/') != std::string::npos || table.index.count(name) > 0) continue;
-    std::vector<std::string> known = table.names;
-    known.emplace_back("t");
-    throw unknown_name(value.where(), value.path(), "parameter", name, known);
-  }
-}
-
 }  // namespace
 
 // A study that only identifies has no run of its own that could have a duration.
@@ -84,7 +73,7 @@ void read_until(const YamlValue& root, const RobotDescription& robot, const Para
   if (!value) return;
   refuse_moving_end(root, "until");
   SignalDescription until = parse_condition(value->text(), value->where(), value->path());
-  refuse_unknown_names(until, table, *value);
+  require_known(until, table.names, value->where(), value->path());
   check_signal(until, robot, study->controllers, value->path());
   use_parameters(until, table);
   study->until = std::make_shared<const SignalDescription>(std::move(until));

@@ -147,24 +147,13 @@ void read_mask(const YamlValue& mask, const RecordingContext& in, RecordingDescr
     add(scalar_joint(name, in.robot, value).name, value);
 }
 
-/// An expression of a signal reads signals, parameters and the time.
-void require_parameters(const SignalDescription& signal, const Study& study,
-                        const YamlValue& value) {
-  std::vector<std::string> known{"t"};
-  for (const Parameter& parameter : study.parameters) known.push_back(parameter.name);
-  for (const std::string& name : signal.formula ? signal.formula->names : known)
-    if (name.find('/') == std::string::npos &&
-        std::find(known.begin(), known.end(), name) == known.end())
-      throw unknown_name(value.where(), value.path(), "parameter", name, known);
-}
-
 /// Signals of the model with their columns.
 void read_signals(const YamlValue& signals, const RecordingContext& in,
                   RecordingDescription* recording) {
   for (const auto& [name, value] : signals.entries()) {
     SignalDescription signal = parse_signal(name, value.where(), value.path());
     check_signal(signal, in.robot, in.study.controllers, value.path());
-    require_parameters(signal, in.study, value);
+    require_known(signal, names_of(in.study.parameters), value.where(), value.path());
     recording->signals.push_back({std::move(signal), read_column(value)});
   }
 }

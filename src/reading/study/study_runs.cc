@@ -136,21 +136,17 @@ void require_count(std::size_t count, const YamlValue& runs) {
 
 /// The numbers of a row of a table: one of its columns is a parameter, or `weight`.
 void apply_cell(const std::string& column, double value, const Study& study, RunDescription* run) {
-  const auto fail = [&](const std::string& message, const std::string& allowed) {
-    throw InputError(
-        {run->where, "column \"" + column + "\"", message, to_decimal(value), allowed});
-  };
+  const std::string element = "column \"" + column + "\"";
   if (column == "weight") {
     if (!(value > 0.0) || !std::isfinite(value))
-      fail("the weight of a run must be positive", "more than 0, relative to the other runs");
+      throw InputError({run->where, element, "the weight of a run must be positive",
+                        to_decimal(value), "more than 0, relative to the other runs"});
     run->weight = value;
     return;
   }
-  const Parameter& parameter = study.parameters[to_index(untuned_parameter(
-      column, study, run->where, "column \"" + column + "\"", {"run", "weight"}))];
-  if (!(value >= parameter.lower && value <= parameter.upper) || !std::isfinite(value))
-    fail("the value lies outside the bounds of the parameter " + parameter.name,
-         range_of(parameter));
+  const int index = untuned_parameter(column, study, run->where, element, {"run", "weight"});
+  const Parameter& parameter = study.parameters[to_index(index)];
+  require_within_bounds(value, parameter, run->where, element);
   run->set.emplace_back(column, value);
 }
 

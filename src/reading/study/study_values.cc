@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include "reading/study/study_values.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "mechanism/signal_catalog.h"
 #include "reading/study/entry_keys.h"
 #include "text/nearest_name.h"
+#include "text/number_text.h"
 
 namespace codesign {
 
@@ -41,12 +43,29 @@ int untuned_parameter(const std::string& name, const Study& study, const SourceL
   throw unknown_name(where, element, "parameter", name, allowed);
 }
 
+void require_within_bounds(double value, const Parameter& parameter, const SourceLocation& where,
+                           const std::string& element) {
+  if (std::isfinite(value) && parameter.lower <= value && value <= parameter.upper) return;
+  throw InputError({where, element,
+                    "the value lies outside the bounds of the parameter " + parameter.name,
+                    to_decimal(value), range_of(parameter)});
+}
+
 double read_within_bounds(const YamlValue& value, const Parameter& parameter) {
   const double number = value.number();
-  if (number < parameter.lower || number > parameter.upper)
-    value.fail("the value lies outside the bounds of the parameter " + parameter.name,
-               range_of(parameter));
+  require_within_bounds(number, parameter, value.where(), value.path());
   return number;
+}
+
+void require_known(const SignalDescription& signal, const std::vector<std::string>& parameters,
+                   const SourceLocation& where, const std::string& element) {
+  if (!signal.formula) return;
+  std::vector<std::string> known = parameters;
+  known.emplace_back("t");
+  for (const std::string& name : signal.formula->names)
+    if (name.find('/') == std::string::npos &&
+        std::find(known.begin(), known.end(), name) == known.end())
+      throw unknown_name(where, element, "parameter", name, known);
 }
 
 double read_above_zero(const YamlValue& value, const std::string& unit) {

@@ -26,8 +26,16 @@ int untuned_parameter(const std::string& name, const Study& study, const YamlVal
 int untuned_parameter(const std::string& name, const Study& study, const SourceLocation& where,
                       const std::string& element, const std::vector<std::string>& others = {});
 
-/// A finite number within the bounds of a parameter. @throws InputError
+/// Refuses a value that is not finite or outside the bounds of a parameter. @throws InputError
+void require_within_bounds(double value, const Parameter& parameter, const SourceLocation& where,
+                           const std::string& element);
+/// Reads a number and does the same.
 double read_within_bounds(const YamlValue& value, const Parameter& parameter);
+
+/// Refuses a name in an expression of signals that is neither a signal, a parameter nor the time t.
+/// @throws InputError
+void require_known(const SignalDescription& signal, const std::vector<std::string>& parameters,
+                   const SourceLocation& where, const std::string& element);
 
 /// A number above zero. @param unit for the message, for example " s". @throws InputError
 double read_above_zero(const YamlValue& value, const std::string& unit = "");

@@ -4,33 +4,15 @@
 #include <algorithm>
 #include <set>
 
-#include "description/link_elements.h"
 #include "description/robot.h"
+#include "reading/urdf/annotation_rules.h"
+#include "reading/urdf/joint_reader.h"
 
 namespace codesign {
 namespace {
 
 using Names = std::vector<std::string>;
-
-/// An ElementRule whose parts are set by name; those that are not named are empty.
-class Rule {
- public:
-  explicit Rule(std::string path) { rule_.path = std::move(path); }
-  Rule& strict(bool is_strict = true) { return set(&ElementRule::strict, is_strict); }
-  Rule& plain(const Names& names) { return set(&ElementRule::plain, names); }
-  Rule& twins(const Names& names) { return set(&ElementRule::twins, names); }
-  Rule& own(const Names& names) { return set(&ElementRule::own, names); }
-  Rule& children(const Names& names) { return set(&ElementRule::children, names); }
-  operator ElementRule() const { return rule_; }  // NOLINT(google-explicit-constructor)
-
- private:
-  template <class Part>
-  Rule& set(Part ElementRule::*part, const Part& value) {
-    rule_.*part = value;
-    return *this;
-  }
-  ElementRule rule_;
-};
+using Rule = AnnotationRule;
 
 void add_shapes(const std::string& path, std::vector<ElementRule>* rules) {
   rules->push_back(Rule(path + "/origin").twins({"xyz", "rpy"}));
@@ -39,50 +21,10 @@ void add_shapes(const std::string& path, std::vector<ElementRule>* rules) {
   rules->push_back(Rule(path + "/geometry/sphere").twins({"radius"}));
 }
 
-/// `<predecessor link>` and `<successor link>` with an `<origin>`.
-void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
-  for (const char* end : {"/predecessor", "/successor"}) {
-    rules->push_back(Rule(path + end).strict().plain({"link"}).children({"origin"}));
-    rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
-  }
-}
-
-/// `<codesign:friction>` where bodies touch.
-void add_contact_friction(const std::string& path, std::vector<ElementRule>* rules) {
-  rules->push_back(
-      Rule(path + "/codesign:friction")
-          .strict()
-          .plain({"model"})
-          .twins({"mu_static", "mu_dynamic", "transition_velocity", "stribeck_velocity"}));
-}
-
-Names contact_numbers() {
-  return {"stiffness", "exponent", "dissipation", "damping", "restitution", "impact_velocity"};
-}
-
 Names clearance_numbers() {
   Names names{"radial", "axial", "radius", "length", "width", "youngs_modulus", "poisson_ratio"};
   for (const std::string& name : contact_numbers()) names.push_back(name);
   return names;
-}
-
-/// `<codesign:contact>`: its ends have a shape, too.
-void add_contact(std::vector<ElementRule>* rules) {
-  const std::string path = "robot/codesign:contact";
-  rules->push_back(Rule(path)
-                       .strict()
-                       .plain({"name", "model"})
-                       .twins(contact_numbers())
-                       .children({"predecessor", "successor", "codesign:friction"}));
-  for (const char* end : {"/predecessor", "/successor"}) {
-    rules->push_back(Rule(path + end)
-                         .strict()
-                         .plain({"link", "shape"})
-                         .twins({"radius", "length", "size", "youngs_modulus", "poisson_ratio"})
-                         .children({"origin"}));
-    rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
-  }
-  add_contact_friction(path, rules);
 }
 
 Names friction_attributes() {
@@ -136,19 +78,16 @@ void add_link_rules(std::vector<ElementRule>* rules) {
 
 std::vector<ElementRule> make_rules() {
   std::vector<ElementRule> rules;
+  const RobotDescription robot;
   Names of_robot{"codesign:parameter", "codesign:set"};
   for (const std::string& tag : link_element_tags()) of_robot.push_back(tag);
   rules.push_back(Rule("robot").children(of_robot));
   rules.push_back(
       Rule("robot/codesign:parameter").strict().plain({"name", "value", "lower", "upper", "unit"}));
   rules.push_back(Rule("robot/codesign:set").strict().plain({"name", "value", "lower", "upper"}));
-  rules.push_back(Rule("robot/codesign:spring_damper")
-                      .strict()
-                      .plain({"name"})
-                      .twins({"stiffness", "damping", "free_length"})
-                      .children({"predecessor", "successor"}));
-  add_ends("robot/codesign:spring_damper", &rules);
-  add_contact(&rules);
+  for_each_link_element_kind(robot, [&rules](const LinkElementKind& kind, const auto& elements) {
+    add_rules_of(elements, std::string("robot/") + kind.tag, &rules);
+  });
 
   add_link_rules(&rules);
 
@@ -189,6 +128,21 @@ const std::vector<ElementRule>& rules() {
 }
 
 }  // namespace
+
+void add_ends(const std::string& path, std::vector<ElementRule>* rules) {
+  for (const char* end : {"/predecessor", "/successor"}) {
+    rules->push_back(Rule(path + end).strict().plain({"link"}).children({"origin"}));
+    rules->push_back(Rule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
+  }
+}
+
+void add_contact_friction(const std::string& path, std::vector<ElementRule>* rules) {
+  rules->push_back(
+      Rule(path + "/codesign:friction")
+          .strict()
+          .plain({"model"})
+          .twins({"mu_static", "mu_dynamic", "transition_velocity", "stribeck_velocity"}));
+}
 
 std::size_t words_of(const std::string& attribute) {
   return attribute == "xyz" || attribute == "rpy" || attribute == "size" ? 3 : 1;

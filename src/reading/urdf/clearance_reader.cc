@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "description/clearance.h"
 #include "math/arrays.h"
 #include "mechanism/pose.h"
 #include "reading/urdf/joint_reader.h"
@@ -65,7 +66,7 @@ class ClearanceReader {
     const bool is_ball = this->is_ball(*joint), is_axial = element_.has("axial");
     if (is_ball) refuse("axial", "a hinge");
     const Quantity radius = read_quantity(element_, "radius", Range::kPositive, context_.table);
-    ContactDescription contact = contact_of(*joint, "_clearance", radial_);
+    ContactDescription contact = contact_of(*joint, clearance_contact(joint->name), radial_);
     contact.surface.shape = is_axial ? ShapeKind::kBore : ShapeKind::kSocket;
     contact.surface.radius = contact.points.radius = radius;
     if (is_axial) contact.surface.axes = axes_;
@@ -75,9 +76,9 @@ class ClearanceReader {
     const Vector3<double> z = is_ball ? Vector3<double>(0.0, 0.0, 1.0) : axis_of(*joint),
                           x = is_ball ? Vector3<double>(1.0, 0.0, 0.0)
                                       : transverse_axis<double>(z, std::nullopt);
-    let(joint, "_x", JointType::kPrismatic, x);
-    let(joint, "_y", JointType::kPrismatic, z.cross(x));
-    if (is_spatial) let(joint, "_z", JointType::kPrismatic, z);
+    let(joint, "x", JointType::kPrismatic, x);
+    let(joint, "y", JointType::kPrismatic, z.cross(x));
+    if (is_spatial) let(joint, "z", JointType::kPrismatic, z);
   }
 
   /// The collars of a journal, as a ball of any radius between two planes.
@@ -86,7 +87,7 @@ class ClearanceReader {
       element_.fail_at("youngs_modulus", "Hertz's stiffness has no radius along the axis",
                        "stiffness in place of youngs_modulus; or no axial");
     ContactDescription contact =
-        contact_of(joint, "_axial_clearance",
+        contact_of(joint, joint.name + "_axial_clearance",
                    read_quantity(element_, "axial", Range::kPositive, context_.table));
     contact.surface.shape = ShapeKind::kSlot;
     contact.surface.length = 2.0 * radius;
@@ -103,7 +104,7 @@ class ClearanceReader {
                    width = read_quantity(element_, "width", Range::kPositive, context_.table);
     if (element_.has("transverse_axis"))
       axes_.transverse = read_transverse_axis(element_, joint->axis);
-    ContactDescription contact = contact_of(*joint, "_clearance", radial_);
+    ContactDescription contact = contact_of(*joint, clearance_contact(joint->name), radial_);
     contact.surface.shape = ShapeKind::kSlot;
     contact.surface.length = width;
     contact.surface.axes = contact.points.axes = axes_;
@@ -112,9 +113,9 @@ class ClearanceReader {
     contact.points.size = {width, width, length};
     add(std::move(contact));
     const Vector3<double> z = axis_of(*joint), x = transverse_axis<double>(z, axes_.transverse);
-    let(joint, "_x", JointType::kPrismatic, x);
+    let(joint, "x", JointType::kPrismatic, x);
     if (joint->is_loop)
-      let(joint, "_turn", JointType::kContinuous, z.cross(x));
+      let(joint, "turn", JointType::kContinuous, z.cross(x));
     else
       turn_child(joint, z.cross(x));
   }
@@ -146,10 +147,10 @@ class ClearanceReader {
                     "another name of that link, joint or contact, or of this joint");
   }
 
-  ContactDescription contact_of(const JointDescription& joint, const char* suffix,
+  ContactDescription contact_of(const JointDescription& joint, std::string name,
                                 const Quantity& clearance) const {
     ContactDescription contact;
-    contact.name = joint.name + suffix;
+    contact.name = std::move(name);
     require_free(contact.name);
     contact.where = element_.where();
     contact.clearance = element_.label();
@@ -192,9 +193,8 @@ class ClearanceReader {
   }
 
   /// Lets the joint's parent move.
-  void let(JointDescription* joint, const char* suffix, JointType type,
-           const Vector3<double>& axis) {
-    JointDescription free = play(joint->name + suffix, type, axis);
+  void let(JointDescription* joint, const char* way, JointType type, const Vector3<double>& axis) {
+    JointDescription free = play(play_of(joint->name, way), type, axis);
     free.parent = joint->parent;
     free.child = add_link(free.name, joint->is_loop);
     free.origin = joint->origin;
@@ -205,7 +205,7 @@ class ClearanceReader {
 
   /// Lets the joint's child turn.
   void turn_child(JointDescription* joint, const Vector3<double>& axis) {
-    JointDescription free = play(joint->name + "_turn", JointType::kContinuous, axis);
+    JointDescription free = play(play_of(joint->name, "turn"), JointType::kContinuous, axis);
     free.child = joint->child;
     free.parent = joint->child = add_link(free.name, false);
     joints.push_back(std::move(free));

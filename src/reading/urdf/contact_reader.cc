@@ -1,6 +1,7 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "reading/urdf/annotation_rules.h"
 #include "reading/urdf/joint_reader.h"
 #include "reading/urdf/quantity_reader.h"
 #include "text/nearest_name.h"
@@ -180,12 +181,35 @@ void read_material(const XmlElement& element, const ReadContext& context, Contac
                     "beside youngs_modulus");
 }
 
+std::vector<std::string> contact_numbers() {
+  return {"stiffness", "exponent", "dissipation", "damping", "restitution", "impact_velocity"};
+}
+
 void read_link_element(const XmlElement& element, const ReadContext& context,
                        ContactDescription* contact) {
   contact->where = element.where();
   contact->name = element.text("name");
   read_ends(element, context, contact);
   read_contact_force(element, context, contact);
+}
+
+// Its ends have a shape, too.
+void add_rules_of(const std::vector<ContactDescription>&, const std::string& path,
+                  std::vector<ElementRule>* rules) {
+  rules->push_back(AnnotationRule(path)
+                       .strict()
+                       .plain({"name", "model"})
+                       .twins(contact_numbers())
+                       .children({"predecessor", "successor", "codesign:friction"}));
+  for (const char* end : {"/predecessor", "/successor"}) {
+    rules->push_back(AnnotationRule(path + end)
+                         .strict()
+                         .plain({"link", "shape"})
+                         .twins({"radius", "length", "size", "youngs_modulus", "poisson_ratio"})
+                         .children({"origin"}));
+    rules->push_back(AnnotationRule(path + end + "/origin").strict().twins({"xyz", "rpy"}));
+  }
+  add_contact_friction(path, rules);
 }
 
 }  // namespace codesign

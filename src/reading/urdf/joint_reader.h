@@ -9,6 +9,7 @@
 
 #include "description/robot.h"
 #include "reading/urdf/quantity_reader.h"
+#include "reading/urdf/vocabulary.h"
 #include "reading/xml/xml_element.h"
 
 namespace codesign {
@@ -41,16 +42,21 @@ std::array<double, 3> read_transverse_axis(const XmlElement& element, const Quan
 ActuatorDescription read_actuator(const XmlElement& element, const JointLaw& law,
                                   const ReadContext& context);
 
-// An overload for each kind of elements between links, for_each_link_element_kind(). All throw
-// InputError.
+// Two overloads for each kind of elements between links, for_each_link_element_kind(): one reads an
+// element, and throws InputError, the other adds the rules of its annotations. @param path of the
+// elements
 
-/// Reads one `<codesign:spring_damper>`; theory (13b).
+/// `<codesign:spring_damper>`; theory (13b).
 void read_link_element(const XmlElement& element, const ReadContext& context,
                        SpringDamperDescription* spring);
-/// Reads one `<codesign:contact>`: shapes, normal force and friction; theory (13k) to (13m). Shapes
-/// that cannot touch each other are an error, which names those that can.
+void add_rules_of(const std::vector<SpringDamperDescription>& kind, const std::string& path,
+                  std::vector<ElementRule>* rules);
+/// `<codesign:contact>`: shapes, normal force and friction; theory (13k) to (13m). Shapes that
+/// cannot touch each other are an error, which names those that can.
 void read_link_element(const XmlElement& element, const ReadContext& context,
                        ContactDescription* contact);
+void add_rules_of(const std::vector<ContactDescription>& kind, const std::string& path,
+                  std::vector<ElementRule>* rules);
 
 /// Reads what `<codesign:contact>` and `<codesign:clearance>` have in common: law, stiffness, loss
 /// and friction. @param contact with its two ends. @throws InputError

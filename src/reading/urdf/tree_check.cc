@@ -6,7 +6,7 @@
 #include <optional>
 #include <set>
 
-#include "description/link_elements.h"
+#include "description/robot.h"
 #include "math/arrays.h"
 #include "mechanism/pair_geometry.h"
 #include "text/nearest_name.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "description/link_elements.h"
+#include "description/robot.h"
 #include "mechanism/constants.h"
 #include "reading/urdf/inertial_reader.h"
 #include "reading/urdf/joint_reader.h"
@@ -62,23 +62,6 @@ CouplingDescription read_coupling(const XmlElement& element, const ReadContext& 
     ratio.fail_at("value", "the ratio is zero", "any other number");
   return coupling;
 }
-
-}  // namespace
-
-void read_link_element(const XmlElement& element, const ReadContext& context,
-                       SpringDamperDescription* spring) {
-  spring->where = element.where();
-  spring->name = element.text("name");
-  std::tie(spring->predecessor, spring->successor) = context.ends(element);
-  spring->predecessor_origin = read_origin(element.only("predecessor"), context.table);
-  spring->successor_origin = read_origin(element.only("successor"), context.table);
-  spring->stiffness = read_quantity(element, "stiffness", Range::kNonNegative, context.table);
-  spring->damping = read_quantity_or(0.0, element, "damping", Range::kNonNegative, context.table);
-  spring->free_length =
-      read_quantity_or(0.0, element, "free_length", Range::kNonNegative, context.table);
-}
-
-namespace {
 
 /// Warns of rotors with a given ratio of 1 on links that move: their reaction turns the carrier,
 /// and a reflected inertia was meant.

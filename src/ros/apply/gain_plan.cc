@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "reading/study/study_values.h"
 #include "text/nearest_name.h"
 #include "text/number_text.h"
 
@@ -86,12 +87,7 @@ class Fitting {
 void require_bounds(const FinishedJob& job) {
   const std::vector<Parameter>& all = job.problem.all_parameters();
   for (std::size_t k = 0; k < all.size(); ++k)
-    if (!(job.parameters[k] >= all[k].lower && job.parameters[k] <= all[k].upper))
-      throw InputError({{job.folder, 0},
-                        all[k].name,
-                        "the value is outside the bounds of the study",
-                        to_decimal(job.parameters[k]),
-                        to_decimal(all[k].lower) + " to " + to_decimal(all[k].upper)});
+    require_within_bounds(job.parameters[k], all[k], {job.folder, 0}, all[k].name);
 }
 
 }  // namespace

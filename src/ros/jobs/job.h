@@ -96,8 +96,8 @@ class Patience {
   }
 
   const std::atomic<bool>& cancel_;
-  ros::WallTime shutdown_,
-      cancelled_;  ///< times of the first calls that saw a shutdown and a cancel
+  /// times of the first calls that saw a shutdown and a cancel
+  ros::WallTime shutdown_, cancelled_;
 };
 
 }  // namespace codesign

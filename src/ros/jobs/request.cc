@@ -12,6 +12,7 @@
 #include "math/arrays.h"
 #include "mechanism_codesign/error.h"
 #include "problem/load_problem.h"
+#include "reading/study/study_values.h"
 #include "ros/bags/bag_contents.h"
 #include "ros/common/parameters.h"
 #include "text/nearest_name.h"
@@ -42,13 +43,6 @@ void check_names(const std::vector<std::string>& names, std::size_t known) {
     fail("parameters", "more names than there are parameters",
          std::to_string(names.size()) + " names", "at most " + std::to_string(known) + " names");
   for (const std::string& name : names) check_length("parameters", name);
-}
-
-std::vector<std::string> names_of(const std::vector<Parameter>& parameters) {
-  std::vector<std::string> names;
-  names.reserve(parameters.size());
-  for (const Parameter& parameter : parameters) names.push_back(parameter.name);
-  return names;
 }
 
 std::size_t index_of(const std::string& name, const std::vector<std::string>& known) {
@@ -183,10 +177,8 @@ Eigen::VectorXd design_of(const Problem& problem,
   Eigen::VectorXd rho = problem.start();
   for (const auto& [name, value] : pair_up(request.parameters, request.values, "values")) {
     const std::size_t k = index_of(name, tuned);
-    const Parameter& parameter = study_of(problem).parameters[to_index(study_of(problem).tuned[k])];
-    if (!(value >= parameter.lower && value <= parameter.upper))
-      fail(name, "value outside the parameter's bounds", to_decimal(value),
-           "[" + to_decimal(parameter.lower) + ", " + to_decimal(parameter.upper) + "]");
+    require_within_bounds(value, tuned_parameter(study_of(problem), to_signed(k)), {kRequest, 0},
+                          name);
     rho[to_signed(k)] = value;
   }
   return rho;

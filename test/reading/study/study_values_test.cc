@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "description/signal.h"
 #include "description/study.h"
 #include "reading/study/study_fixture.h"
 
@@ -36,6 +39,43 @@ TEST(StudyValues, SaysWhatAQuantityMayBe) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.fault().value, "two");
     EXPECT_EQ(error.fault().allowed, "a finite number or \"${expression}\" of the parameters");
+  }
+}
+
+// Bounds are allowed values; a number that is not one is not.
+TEST(StudyValues, AValueStaysWithinTheBoundsOfItsParameter) {
+  Parameter mass;
+  mass.name = "mass";
+  mass.lower = 0.5;
+  mass.upper = 2.0;
+  for (const double value : {0.5, 1.0, 2.0})
+    EXPECT_NO_THROW(require_within_bounds(value, mass, {"f", 3}, "set.mass")) << value;
+  for (const double value : {0.499, 2.001, std::nan(""), HUGE_VAL}) try {
+      require_within_bounds(value, mass, {"f", 3}, "set.mass");
+      ADD_FAILURE() << value;
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.fault().where.line, 3);
+      EXPECT_EQ(error.fault().element, "set.mass");
+      EXPECT_EQ(error.fault().allowed, "[0.5, 2]");
+      EXPECT_NE(error.fault().message.find("mass"), std::string::npos);
+    }
+  mass.upper = HUGE_VAL;
+  EXPECT_THROW(require_within_bounds(HUGE_VAL, mass, {"f", 3}, "set.mass"), InputError);
+}
+
+TEST(StudyValues, AnExpressionOfSignalsReadsParametersAndTheTime) {
+  const auto require = [](const char* text) {
+    require_known(parse_signal(text, {"f", 3}, "signals"), {"mass"}, {"f", 3}, "signals");
+  };
+  for (const char* good : {"a/position", "${mass*a/position + t}"})
+    EXPECT_NO_THROW(require(good)) << good;
+  try {
+    require("${2*mas*a/position}");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().message, "unknown parameter, did you mean \"mass\"?");
+    EXPECT_EQ(error.fault().allowed, "mass, t");
+    EXPECT_EQ(error.fault().element, "signals");
   }
 }
 
