@@ -196,6 +196,7 @@ constexpr JointLaw floating() {
 
 constexpr JointLaw spherical() {
   JointLaw law = make_row(J::kSpherical, 3, F::kAll);
+  law.of_joints = "spherical";
   law.of_loops = "codesign:spherical";
   law.bearing = ball();
   law.slip_coordinates = law.slips_of_the_point = 3;
@@ -215,6 +216,7 @@ constexpr JointLaw universal() {
 
 constexpr JointLaw cylindrical() {
   JointLaw law = make_row(J::kCylindrical, 4, F::kAcross);
+  law.of_joints = "cylindrical";
   law.of_loops = "codesign:cylindrical";
   law.torque_rows = law.in_forest = true;
   law.add_rows = {cylindrical_rows, cylindrical_rows};

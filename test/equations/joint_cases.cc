@@ -62,11 +62,16 @@ std::vector<JointCase> trees() {
   const auto one = [](const std::string& type) {
     return tree("joint", type, "base", "tip", "1 0 0.5", kOrigin);
   };
+  const auto of_type = [](const std::string& type) {
+    return tree("joint", "floating' codesign:type='" + type, "base", "tip", "1 0 0.5", kOrigin);
+  };
   return {{"revolute", one("revolute"), 5},
           {"continuous", one("continuous"), 5},
           {"prismatic", one("prismatic"), 5},
           {"cylindrical", chain({{'R', "0 0 1"}, {'P', "0 0 1"}}), 4},
           {"spherical", chain({{'R', "1 0 0"}, {'R', "0 1 0"}, {'R', "0 0 1"}}), 3},
+          {"cylindrical_by_type", of_type("cylindrical"), 4},
+          {"spherical_by_type", of_type("spherical"), 3},
           {"universal", chain({{'R', "1 0 0"}, {'R', "0.3 1 0"}}), 4, false},
           {"planar", one("planar"), 3},
           {"table", chain({{'P', "1 0 0"}, {'P', "0.4 1 0"}}), 4},

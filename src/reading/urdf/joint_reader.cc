@@ -176,6 +176,20 @@ void read_armature(const XmlElement& element, const ReadContext& context, JointD
         "there"));
 }
 
+bool is_type_of_urdf(JointType type) { return type <= JointType::kFloating; }
+
+/// How joints of other formats are said here.
+struct ForeignType {
+  const char *name, *said;
+};
+constexpr ForeignType kForeignTypes[] = {
+    {"ball", "type=\"floating\" codesign:type=\"spherical\""},
+    {"universal", "two continuous joints through a link without <inertial>"},
+    {"revolute2", "two continuous joints through a link without <inertial>"},
+    {"screw",
+     "a continuous joint, a link without <inertial>, and a prismatic joint with <mimic> of it"},
+};
+
 /// Reads the attribute `type` of a joint, or of a loop if `joint` is one; of a joint that URDF does
 /// not have, `codesign:type`. @throws InputError
 void read_joint_type(const XmlElement& element, const Laws& laws, JointDescription* joint) {
@@ -189,12 +203,20 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
   for (const RowReference<JointLaw>& law : laws.joints) {
     const char* const spelling = joint->is_loop ? law->of_loops : law->of_joints;
     if (spelling == nullptr) continue;
-    known.emplace_back(spelling);
+    const bool is_refused = !is_own && !joint->is_loop && !is_type_of_urdf(law->type);
+    if (!is_refused) known.emplace_back(spelling);
     if (name != spelling) continue;
+    if (is_refused)
+      element.fail_at(attribute, "other readers of URDF refuse a joint of this type",
+                      "type=\"floating\" codesign:type=\"" + name + "\"");
     joint->type = law->type;
     if (law->type == JointType::kOther) joint->own_kind = pair_of(*law);
     return;
   }
+  for (const ForeignType& foreign : kForeignTypes)
+    if (!joint->is_loop && name == foreign.name)
+      element.fail_at(attribute, "this joint of other formats is said otherwise in URDF",
+                      foreign.said);
   throw unknown_name(element.where(attribute), element.label(),
                      joint->is_loop ? "loop type" : "joint type", name, known);
 }

@@ -67,6 +67,17 @@ TEST(JointReader, ReadsAllTypes) {
                {"test.urdf:3: <joint name=\"j\">: unknown joint type, did you mean \"revolute\"?"});
 }
 
+TEST(JointReader, TypesThatUrdfLacks) {
+  EXPECT_EQ(read_urdf(typed("floating\" codesign:type=\"spherical")).joints[0].type,
+            JointType::kSpherical);
+  EXPECT_EQ(read_urdf(typed("floating\" codesign:type=\"cylindrical")).joints[0].type,
+            JointType::kCylindrical);
+  expect_error(typed("spherical"), {"test.urdf:3", "other readers of URDF refuse",
+                                    "type=\"floating\" codesign:type=\"spherical\""});
+  expect_error(typed("ball"), {"test.urdf:3", "codesign:type=\"spherical\""});
+  expect_error(typed("screw"), {"test.urdf:3", "<mimic>"});
+}
+
 TEST(JointReader, AxisAndDynamicsMayHaveTwins) {
   const JointDescription joint = hinge(
       R"(<axis xyz="0 0.2 1" codesign:xyz="0 ${length} 1"/><dynamics damping="0.1" codesign:damping="${length/2}" friction="0.3"/>)");
