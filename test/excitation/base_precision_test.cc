@@ -43,7 +43,7 @@ TEST(BasePrecision, OfColumnsAtAnAngle) {
 
 /// The plain trajectory as a table is predicted as the plain trajectory.
 TEST(BasePrecision, AComparedTrajectoryIsJudgedAsItIs) {
-  const Problem problem = pendulum("starts: 1, max_evaluations: 5, sample_rate: 200");
+  const Problem problem = excited_pendulum("starts: 1, max_evaluations: 5, sample_rate: 200");
   const ExcitationResult once = excite(problem, {}, nullptr);
   EXPECT_FALSE(once.compared);
   EXPECT_TRUE(std::isfinite(once.condition_before));

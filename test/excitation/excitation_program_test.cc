@@ -87,7 +87,7 @@ TEST(ExcitationProgram, GradientOfAClosedLoop) {
 }
 
 TEST(ExcitationProgram, AMotionThatTellsNothingIsAFailure) {
-  const Problem problem = pendulum("", "parameters: {mass: {}, inertia: {}}", "0 0 1");
+  const Problem problem = excited_pendulum("", "parameters: {mass: {}, inertia: {}}", "0 0 1");
   const MotionLimits limits = motion_limits(problem);
   const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);

@@ -45,7 +45,7 @@ double worst_on_fine_scan(const Problem& problem, const ExcitationResult& result
 }
 
 TEST(Excite, APendulumIsKnownBetterWithinItsLimits) {
-  const Problem problem = pendulum("starts: 3");
+  const Problem problem = excited_pendulum("starts: 3");
   const ExcitationResult result = excite(problem, {}, nullptr);
   ASSERT_TRUE(result.status.ok()) << result.status.cause;
   RecordProperty("volume_factor", std::to_string(result.volume_factor()));
@@ -59,8 +59,8 @@ TEST(Excite, APendulumIsKnownBetterWithinItsLimits) {
 }
 
 TEST(Excite, WaypointsBeginAndEndAtRest) {
-  const ExcitationResult result =
-      excite(pendulum("starts: 1, periods: 2, max_evaluations: 10, sample_rate: 50"), {}, nullptr);
+  const ExcitationResult result = excite(
+      excited_pendulum("starts: 1, periods: 2, max_evaluations: 10, sample_rate: 50"), {}, nullptr);
   const TrajectoryPoints& points = result.points;
   ASSERT_EQ(points.times.size(), 401U);
   EXPECT_EQ(points.joints, (std::vector<std::string>{"hinge"}));
@@ -135,8 +135,8 @@ TEST(Excite, ALoopThatIsHeldInItsPlane) {
 
 TEST(Excite, WhatNoTrajectoryTellsIsNamed) {
   const ExcitationResult result =
-      excite(pendulum("starts: 1, max_evaluations: 40",
-                      "parameters: {mass: {}, inertia: {}, viscous: {}}", "0 0 1"),
+      excite(excited_pendulum("starts: 1, max_evaluations: 40",
+                              "parameters: {mass: {}, inertia: {}, viscous: {}}", "0 0 1"),
              {}, nullptr);
   EXPECT_EQ(result.status.code, StatusCode::kNotIdentifiable);
   ASSERT_EQ(result.undetermined.size(), 1U);
@@ -179,7 +179,7 @@ TEST(Excite, WhatAPriorDecidesIsNoFailure) {
 }
 
 TEST(Excite, ACancelKeepsTheBestTrajectory) {
-  const Problem problem = pendulum("starts: 3");
+  const Problem problem = excited_pendulum("starts: 3");
   std::atomic<bool> cancel{false};
   const auto observer = [&cancel](const ExcitationTrial& trial) {
     if (trial.evaluation == 15) cancel = true;
@@ -197,11 +197,12 @@ TEST(Excite, ACancelKeepsTheBestTrajectory) {
 }
 
 TEST(Excite, TheSameSeedGivesTheSameBits) {
-  const Problem one = pendulum("starts: 2, max_evaluations: 20",
-                               "parameters: {inertia: {}, viscous: {}}\nengine: {type: serial}");
-  const Problem four =
-      pendulum("starts: 2, max_evaluations: 20",
-               "parameters: {inertia: {}, viscous: {}}\nengine: {type: threads, workers: 4}");
+  const Problem one =
+      excited_pendulum("starts: 2, max_evaluations: 20",
+                       "parameters: {inertia: {}, viscous: {}}\nengine: {type: serial}");
+  const Problem four = excited_pendulum(
+      "starts: 2, max_evaluations: 20",
+      "parameters: {inertia: {}, viscous: {}}\nengine: {type: threads, workers: 4}");
   EXPECT_EQ(excite(one, {}, nullptr).coefficients, excite(four, {}, nullptr).coefficients);
 }
 

@@ -28,8 +28,8 @@ std::string pendulum_urdf(const std::string& axis, const std::string& other_cent
 </robot>)";
 }
 
-Problem pendulum(const std::string& excite, const std::string& more, const std::string& axis,
-                 const std::string& identify) {
+Problem excited_pendulum(const std::string& excite, const std::string& more,
+                         const std::string& axis, const std::string& identify) {
   return load_problem(
       {"pendulum.urdf", pendulum_urdf(axis)}, {},
       {"study.yaml", "identify: {" + identify +

@@ -16,7 +16,7 @@ namespace codesign {
 /// m from the axis. With an upright axis, gravity does not act on it.
 std::string pendulum_urdf(const std::string& axis = "0 1 0", const std::string& other_centre = "");
 
-Problem pendulum(
+Problem excited_pendulum(
     const std::string& excite,
     const std::string& more = "parameters: {mass: {}, inertia: {}, viscous: {}, coulomb: {}}",
     const std::string& axis = "0 1 0", const std::string& identify = "");

@@ -103,7 +103,7 @@ TEST(ExcitedMotion, SlopesOfAClosedLoop) {
 }
 
 TEST(ExcitedMotion, EffortsOfAPendulumAreThoseOfTheFormula) {
-  Moved moved(pendulum(""));
+  Moved moved(excited_pendulum(""));
   moved.run();
   const auto& path = moved.path;
   for (Eigen::Index k = 0; k < path.samples(); ++k) {

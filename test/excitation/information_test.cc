@@ -32,9 +32,10 @@ PathResponse made_up() {
 
 class InformationOfAPendulum : public testing::Test {
  protected:
-  const Problem problem_ = pendulum("", "parameters: {inertia: {}, viscous: {}}", "0 1 0",
-                                    "joints: {hinge: {effort_scale: {initial: 2.0}, delay: "
-                                    "{initial: 0.01, upper: 0.02}, offset: {initial: 0.5}}}");
+  const Problem problem_ =
+      excited_pendulum("", "parameters: {inertia: {}, viscous: {}}", "0 1 0",
+                       "joints: {hinge: {effort_scale: {initial: 2.0}, delay: "
+                       "{initial: 0.01, upper: 0.02}, offset: {initial: 0.5}}}");
   const FitVariables variables_{study_of(problem_)};
   const Information information_{variables_, {"hinge"}, Eigen::VectorXd::Constant(1, 0.1)};
 };

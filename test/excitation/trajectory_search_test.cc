@@ -13,8 +13,9 @@ namespace {
 class TrajectorySearchOf : public testing::TestWithParam<std::string> {};
 
 TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
-  const Problem problem = pendulum("harmonics: 4, max_evaluations: 120, search: " + GetParam(),
-                                   "parameters: {mass: {}, inertia: {}, viscous: {}}");
+  const Problem problem =
+      excited_pendulum("harmonics: 4, max_evaluations: 120, search: " + GetParam(),
+                       "parameters: {mass: {}, inertia: {}, viscous: {}}");
   const MotionLimits limits = motion_limits(problem);
   const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);
@@ -41,7 +42,8 @@ TEST_P(TrajectorySearchOf, LowersTheCriterionWithinTheLimits) {
 INSTANTIATE_TEST_SUITE_P(Methods, TrajectorySearchOf, testing::Values("slsqp", "ccsaq", "mma"));
 
 TEST(TrajectorySearch, EndsWhenToldWithTheBestPointSoFar) {
-  const Problem problem = pendulum("harmonics: 4", "parameters: {inertia: {}, viscous: {}}");
+  const Problem problem =
+      excited_pendulum("harmonics: 4", "parameters: {inertia: {}, viscous: {}}");
   const MotionLimits limits = motion_limits(problem);
   const FitVariables variables(study_of(problem));
   const Information information(variables, {"hinge"}, limits.noise);

@@ -63,7 +63,7 @@ ExcitationResult some_result() {
 }
 
 TEST(ExcitationRecords, Json) {
-  const Json object = excitation_json(pendulum(""), some_result());
+  const Json object = excitation_json(excited_pendulum(""), some_result());
   EXPECT_NEAR(object["volume_factor"].get<double>(), std::exp(2.0), 1e-12);
   EXPECT_NEAR(object["mean_factor"].get<double>(), std::exp(1.0), 1e-12);
   EXPECT_EQ(object["predicted"]["mass"]["after"]["half_interval"], 0.2);
@@ -77,7 +77,7 @@ TEST(ExcitationRecords, Json) {
 TEST(ExcitationRecords, NothingFoundIsShort) {
   ExcitationResult result;
   result.termination = "start_failed";
-  const Json object = excitation_json(pendulum(""), result);
+  const Json object = excitation_json(excited_pendulum(""), result);
   EXPECT_EQ(object["termination"], "start_failed");
   EXPECT_FALSE(object.contains("predicted"));
   EXPECT_TRUE(excitation_sentences(result).empty());
