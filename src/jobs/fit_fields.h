@@ -96,7 +96,7 @@ constexpr auto fields_of(const Whiteness*) {
             "of neighbouring residuals, -1 to 1"));
 }
 
-/// Without joint.
+/// Without joint and whiteness, of which a message has the probability alone.
 constexpr auto fields_of(const OutputFit*) {
   return std::make_tuple(
       field("recorded_rms", &OutputFit::recorded,
@@ -108,8 +108,7 @@ constexpr auto fields_of(const OutputFit*) {
       field("explained", &OutputFit::explained, "1 - (rms / recorded_rms)^2"),
       field("counted", &OutputFit::counted,
             "share of the samples that count, above the speed of a mask")
-          .finite(),
-      field("whiteness", &OutputFit::whiteness, "whether the residuals look like white noise"));
+          .finite());
 }
 
 constexpr auto fields_of(const IdentificationResult*) {

@@ -42,7 +42,10 @@ Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance) {
 
 Json outputs_json(const std::vector<OutputFit>& fits, Eigen::Index samples) {
   Json joints = Json::object();
-  for (const OutputFit& fit : fits) joints[fit.joint] = record_json(fit);
+  for (const OutputFit& fit : fits) {
+    joints[fit.joint] = record_json(fit);
+    joints[fit.joint]["whiteness"] = record_json(fit.whiteness);
+  }
   return {{"samples", samples}, {"joints", std::move(joints)}};
 }
 
