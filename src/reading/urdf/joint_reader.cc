@@ -178,17 +178,19 @@ void read_armature(const XmlElement& element, const ReadContext& context, JointD
 
 bool is_type_of_urdf(JointType type) { return type <= JointType::kFloating; }
 
-/// How joints of other formats are said here.
-struct ForeignType {
-  const char *name, *said;
-};
-constexpr ForeignType kForeignTypes[] = {
-    {"ball", "type=\"floating\" codesign:type=\"spherical\""},
-    {"universal", "two continuous joints through a link without <inertial>"},
-    {"revolute2", "two continuous joints through a link without <inertial>"},
-    {"screw",
-     "a continuous joint, a link without <inertial>, and a prismatic joint with <mimic> of it"},
-};
+/// Says how a joint of other formats is written. @throws InputError
+void refuse_foreign_type(const XmlElement& element, const std::string& name) {
+  if (name == "ball")
+    element.fail_at("type", "URDF has no ball joint",
+                    "type=\"floating\" codesign:type=\"spherical\"");
+  if (name == "universal" || name == "revolute2")
+    element.fail_at("type", "URDF has no joint with two axes",
+                    "two continuous joints through a link without <inertial>");
+  if (name == "screw")
+    element.fail_at("type", "URDF has no screw",
+                    "a continuous joint, a link without <inertial>, and a prismatic joint with "
+                    "<mimic> of the first one");
+}
 
 /// Reads the attribute `type` of a joint, or of a loop if `joint` is one; of a joint that URDF does
 /// not have, `codesign:type`. @throws InputError
@@ -213,10 +215,7 @@ void read_joint_type(const XmlElement& element, const Laws& laws, JointDescripti
     if (law->type == JointType::kOther) joint->own_kind = pair_of(*law);
     return;
   }
-  for (const ForeignType& foreign : kForeignTypes)
-    if (!joint->is_loop && name == foreign.name)
-      element.fail_at(attribute, "this joint of other formats is said otherwise in URDF",
-                      foreign.said);
+  if (!is_own && !joint->is_loop) refuse_foreign_type(element, name);
   throw unknown_name(element.where(attribute), element.label(),
                      joint->is_loop ? "loop type" : "joint type", name, known);
 }
