@@ -243,8 +243,8 @@ std::string advice_of(const RobotDescription& robot, const std::vector<Release>&
   }
   return "to remove the warning, give the freedom that bearings have in reality to " + text +
          ": this determines all of it, and none of them can be left out" +
-         (in_tree ? " (a joint of the tree gets it by massless links, doc/annotations.md, Compound "
-                    "joint)"
+         (in_tree ? " (a joint of the tree by type=\"floating\" codesign:type=..., "
+                    "doc/annotations.md, Further joints)"
                   : "");
 }
 

@@ -32,7 +32,9 @@ std::string unit_of(const SignalFacts& facts, const JointDescription* joint,
   if (facts.kind == SignalKind::kControllerOutput && joint != nullptr && joint->has_winding())
     return "V";
   if (joint == nullptr) return "";
-  const bool turns = joint->freedoms().turns > 0 && joint->freedoms().slides == 0;
+  // Friction of a cylindrical joint is that of its turn.
+  const bool turns = joint->freedoms().turns > 0 &&
+                     (joint->freedoms().slides == 0 || joint->law().slip_coordinates == 0);
   const char* of_joint = unit.front() == 'q' ? (turns ? "rad" : "m") : (turns ? "N m" : "N");
   return of_joint + unit.substr(1);
 }

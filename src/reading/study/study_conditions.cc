@@ -34,8 +34,9 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
     if (joint.name == name && (free || joint.has_one_coordinate() || can_stick(joint)))
       return joint;
     if (joint.name == name)
-      value.fail("this joint has neither a single coordinate nor a pose",
-                 "a revolute, continuous, prismatic, planar or floating joint");
+      value.fail(
+          "this joint has neither a single coordinate nor a pose",
+          "a revolute, continuous, prismatic, planar, spherical, cylindrical or floating joint");
     if (free || joint.has_one_coordinate()) known.push_back(joint.name);
   }
   throw unknown_name(value.where(), value.path(), "joint", name, known);
@@ -45,6 +46,8 @@ const JointDescription& starting_joint(const std::string& name, const RobotDescr
 /// normal to its axis, or along the axis.
 void check_slide(const YamlValue& value, const QuantityVector& vector,
                  const JointDescription& joint) {
+  if (joint.freedoms().slides == 0)
+    value.fail("this joint does not slide", "rotation, angular_velocity");
   const auto nominal = [](const QuantityVector& q) {
     return Vector3<double>(q[0].nominal(), q[1].nominal(), q[2].nominal());
   };

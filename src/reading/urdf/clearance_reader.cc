@@ -241,7 +241,7 @@ void read_clearances(const XmlElement& robot, const ReadContext& context,
       if (!element || k < 0) continue;
       JointDescription& joint = description->joints[to_index(k)];
       const Quantity radial = read_quantity(*element, "radial", Range::kNonNegative, context.table);
-      if (!joint.has_one_coordinate() && joint.type != JointType::kSpherical)
+      if (!joint.has_one_coordinate() && !(joint.is_loop && joint.type == JointType::kSpherical))
         element->fail("a joint of this type has no clearance", of.find("type").value_or(""),
                       "revolute, continuous and prismatic joints and loops, loops of type "
                       "codesign:spherical; else a <codesign:contact>");

@@ -124,6 +124,9 @@ void read_limit_of_joint(const XmlElement& element, const ReadContext& context,
         "without stops type=\"continuous\"");
   if (limit && joint->has_one_coordinate())
     joint->limit = read_limit(*limit, joint->law(), context);
+  else if (limit && element.has("codesign:type"))
+    limit->fail("a joint of this type has no single coordinate for a limit",
+                element.text("codesign:type"), "revolute, continuous or prismatic");
 }
 
 void read_mimic_of_joint(const XmlElement& element, const ReadContext& context,
@@ -152,7 +155,15 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
   joint->armature = read_magnitude_or_zero(dynamics, "armature", context);
-  if (!joint->has_pose() || dynamics.in_overlay()) return;
+  if (!joint->has_pose()) return;
+  if (dynamics.in_overlay()) {
+    // A row of friction or damping would act on the turn alone.
+    if (joint->freedoms().turns == 1 && joint->freedoms().slides == 1 &&
+        !(joint->damping.is_zero() && joint->dry_friction.is_zero()))
+      dynamics.fail("a joint of this type has no single coordinate for damping and friction", "",
+                    "<codesign:friction>");
+    return;
+  }
   if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
     context.warnings->push_back(dynamics.warning(
         "dynamics_ignored",
@@ -180,9 +191,12 @@ bool is_type_of_urdf(JointType type) { return type <= JointType::kFloating; }
 
 /// Says how a joint of other formats is written. @throws InputError
 void refuse_foreign_type(const XmlElement& element, const std::string& name) {
-  if (name == "ball")
+  if (name == "ball" || name == "codesign:spherical")
     element.fail_at("type", "URDF has no ball joint",
                     "type=\"floating\" codesign:type=\"spherical\"");
+  if (name == "codesign:cylindrical")
+    element.fail_at("type", "URDF has no cylindrical joint",
+                    "type=\"floating\" codesign:type=\"cylindrical\"");
   if (name == "universal" || name == "revolute2")
     element.fail_at("type", "URDF has no joint with two axes",
                     "two continuous joints through a link without <inertial>");

@@ -75,6 +75,7 @@ TEST(JointReader, TypesThatUrdfLacks) {
   expect_error(typed("spherical"), {"test.urdf:3", "other readers of URDF refuse",
                                     "type=\"floating\" codesign:type=\"spherical\""});
   expect_error(typed("ball"), {"test.urdf:3", "codesign:type=\"spherical\""});
+  expect_error(typed("codesign:cylindrical"), {"codesign:type=\"cylindrical\""});
   expect_error(typed("screw"), {"test.urdf:3", "<mimic>"});
 }
 
