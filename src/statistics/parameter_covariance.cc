@@ -275,11 +275,15 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
-  const auto rows = static_cast<double>(residuals.size() - eliminated.left_out);
+  const Eigen::MatrixXd& counted = eliminated.counted;
+  const bool all_count = counted.size() == 0;
+  const double rows = all_count ? static_cast<double>(residuals.size()) : counted.sum(),
+               squares = all_count ? residuals.squaredNorm()
+                                   : residuals.cwiseProduct(counted).squaredNorm();
   const Eigen::Index rank = result.identifiability.rank;
   const double left = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
   result.degrees.setConstant(jacobian.cols(), left);
-  result.residual_variance = residuals.squaredNorm() / left;
+  result.residual_variance = squares / left;
   const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {
     result.covariance = result.residual_variance * root * root.transpose();

@@ -67,6 +67,21 @@ TEST(ParameterCovariance, TheKernelOfTheScoresIsThatOfStatsmodels) {
   EXPECT_NEAR(covariance(2, 2), 0.47161190334442027, 1e-12);
 }
 
+TEST(ParameterCovariance, ResidualsThatDoNotCountLeaveTheirVariance) {
+  const LinearFit fit;
+  EliminatedUnknowns eliminated;
+  eliminated.counted.setOnes(100, 1);
+  eliminated.counted.topRows(20).setZero();
+  for (const double beyond : {0.0, 50.0}) {
+    Eigen::MatrixXd residuals = fit.residuals;
+    residuals.topRows(20).setConstant(beyond);
+    const ParameterCovariance known =
+        parameter_covariance(residuals, fit.X, {100}, options_of(NoiseModel::kWhite), eliminated);
+    EXPECT_NEAR(known.residual_variance, fit.residuals.tail(80).squaredNorm() / 77.0, 1e-12);
+    EXPECT_EQ(known.degrees[0], 77.0);
+  }
+}
+
 TEST(ParameterCovariance, OutputsAtOneTimeDependOnEachOther) {
   const LinearFit fit;
   // The same output twice has no more information, though white noise would promise half of the
