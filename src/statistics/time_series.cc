@@ -187,14 +187,18 @@ Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengt
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
     const Eigen::MatrixXd sums = running_sums(terms, begin, length);
+    // Every longer window is the whole series.
+    const Eigen::Index within = std::min<Eigen::Index>(lag, length - 1);
+    const Eigen::RowVectorXd beyond = static_cast<double>(lag - within) * sums.row(length);
     Eigen::RowVectorXd both = Eigen::RowVectorXd::Zero(terms.cols());
     const auto window = [&](Eigen::Index end) {
-      return sums.row(std::min(end + 1, length)) - sums.row(std::max<Eigen::Index>(end - lag, 0));
+      return sums.row(std::min(end + 1, length)) -
+             sums.row(std::max<Eigen::Index>(end - within, 0));
     };
-    for (Eigen::Index end = 0; end < lag; ++end) both += window(end);
+    for (Eigen::Index end = 0; end < within; ++end) both += window(end);
     for (Eigen::Index k = 0; k < length; ++k) {
-      both += window(k + lag);
-      result.row(begin + k) = both / (lag + 1.0);
+      both += window(k + within);
+      result.row(begin + k) = (both + beyond) / (lag + 1.0);
       both -= window(k);
     }
     begin += length;

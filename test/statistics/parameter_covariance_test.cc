@@ -189,6 +189,23 @@ TEST(ParameterCovariance, AGivenLagCountsTimes) {
   EXPECT_EQ(automatic.lag % 4, 0) << "sums over four times";
 }
 
+/// A given lag leaves the moments nearly those of the same lag in sums.
+TEST(ParameterCovariance, AGivenLagHasTheMomentsOfSums) {
+  constexpr Eigen::Index kCount = 4000;
+  const Eigen::MatrixXd X = Eigen::MatrixXd::Ones(kCount, 1);
+  Eigen::VectorXd residuals(kCount);
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (double& value : residuals) value = normal(generator);
+  residuals.array() -= residuals.mean();
+  for (const NoiseModel noise : {NoiseModel::kCorrelated, NoiseModel::kBootstrap}) {
+    const ParameterCovariance known =
+        parameter_covariance(residuals, X, {kCount}, options_of(noise, 200));
+    EXPECT_EQ(known.lag, 200);
+    EXPECT_NEAR(known.degrees[0] * 200.0 / kCount, 1.5, 0.1);
+  }
+}
+
 /// How often intervals at 95 % hold the truth, in 200 runs of white noise in which each piece of
 /// 50 times has an offset and a slope of its own: per parameter. @param unequal standard deviation
 /// of the logarithms of how much a piece tells of a parameter
