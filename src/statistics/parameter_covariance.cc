@@ -195,13 +195,17 @@ void use_independent(const LinearizedFit& fit, const Contributions& of,
 }
 
 // The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
-// their quantiles. The variance of sums of blocks is that of the kernel as wide as a block.
+// their quantiles. The variance of sums of blocks is nearly that of the kernel as wide as a block,
+// in series that are longer.
 void use_bootstrap(const LinearizedFit& fit, const Contributions& of,
                    const IntervalOptions& options, ParameterCovariance* result) {
-  result->lag = options.lag > 0 ? options.lag : automatic_lag(of.terms, of.lengths);
+  result->lag =
+      block_within(of.lengths, options.lag > 0 ? options.lag : automatic_lag(of.terms, of.lengths));
   const Correction correct = correct_by_moments(fit, of, result->lag - 1, result);
-  const Eigen::MatrixXd draws = bootstrap_sums(of.terms, of.lengths, result->lag, kDraws, kSeed) *
-                                correct.factors.asDiagonal();
+  // Single terms may come from any series; in one of its own, one term would always be drawn.
+  const SeriesLengths lengths = result->lag == 1 ? SeriesLengths{of.terms.rows()} : of.lengths;
+  const Eigen::MatrixXd draws =
+      bootstrap_sums(of.terms, lengths, result->lag, kDraws, kSeed) * correct.factors.asDiagonal();
   result->covariance = draws.transpose() * draws / (kDraws - 1.0);
   result->covariance.diagonal() += correct.white;
   result->below.resize(draws.cols());

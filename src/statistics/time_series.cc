@@ -110,11 +110,14 @@ Eigen::MatrixXd running_sums(const Eigen::MatrixXd& terms, Eigen::Index begin,
   return sums;
 }
 
+/// Longer blocks of a series would begin at too few places to differ from draw to draw.
+Eigen::Index longest_block(Eigen::Index length) { return std::max<Eigen::Index>(1, length / 4); }
+
 /// Adds to each draw the sum over blocks of one series. The last block is cut to the missing
 /// length.
 void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* generator,
                 Eigen::MatrixXd* draws) {
-  const Eigen::Index length = sums.rows() - 1, size = std::min(block, length),
+  const Eigen::Index length = sums.rows() - 1, size = std::min(block, longest_block(length)),
                      starts = length - size + 1;
   for (Eigen::Index draw = 0; draw < draws->rows(); ++draw)
     for (Eigen::Index filled = 0; filled < length; filled += size) {
@@ -221,6 +224,11 @@ LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const Series
                          recolor.asDiagonal() / kOrders;
   }
   return result;
+}
+
+int block_within(const SeriesLengths& lengths, int block) {
+  const Eigen::Index longest = *std::max_element(lengths.begin(), lengths.end());
+  return static_cast<int>(std::min<Eigen::Index>(block, longest_block(longest)));
 }
 
 Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,

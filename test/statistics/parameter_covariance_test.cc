@@ -1,10 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/parameter_covariance.h"
 
@@ -203,6 +205,28 @@ TEST(ParameterCovariance, AGivenLagHasTheMomentsOfSums) {
         parameter_covariance(residuals, X, {kCount}, options_of(noise, 200));
     EXPECT_EQ(known.lag, 200);
     EXPECT_NEAR(known.degrees[0] * 200.0 / kCount, 1.5, 0.1);
+  }
+}
+
+/// Many recordings, each shorter than the block asked for, or of one time: without noise that is
+/// correlated, the deviation is nearly that of white noise.
+TEST(ParameterCovariance, BlocksFitIntoShortRecordings) {
+  constexpr Eigen::Index kCount = 400;
+  const Eigen::MatrixXd X = Eigen::MatrixXd::Ones(kCount, 1);
+  Eigen::VectorXd residuals(kCount);
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal;
+  for (double& value : residuals) value = normal(generator);
+  residuals.array() -= residuals.mean();
+  const double white =
+      parameter_covariance(residuals, X, {kCount}, options_of(NoiseModel::kWhite)).covariance(0, 0);
+  for (const Eigen::Index length : {1, 2, 10, 40}) {
+    const ParameterCovariance known =
+        parameter_covariance(residuals, X, SeriesLengths(to_index(kCount / length), length),
+                             options_of(NoiseModel::kBootstrap, 50));
+    EXPECT_EQ(known.lag, std::max<Eigen::Index>(1, length / 4));
+    EXPECT_NEAR(std::sqrt(known.covariance(0, 0) / white), 1.0, 0.25) << length;
+    EXPECT_GT(known.above[0], 1.5 * std::sqrt(white)) << length;
   }
 }
 
