@@ -53,11 +53,8 @@ WeightedResiduals weighted_columns(const ResidualFit& fit, const LossOptions& lo
 }
 
 EliminatedUnknowns eliminated_from(const ResidualSource& source) {
-  const Eigen::MatrixXd counted = source.counted();
-  const Eigen::Index left_out =
-      counted.size() > 0 ? static_cast<Eigen::Index>((counted.array() == 0.0).count()) : 0;
-  if (source.own_unknowns() == 0) return {0, {}, left_out};
-  return {source.own_unknowns(), source.pieces(), left_out};
+  if (source.own_unknowns() == 0) return {0, {}, source.counted()};
+  return {source.own_unknowns(), source.pieces(), source.counted()};
 }
 
 /// The covariance of the free numbers, by the noise model of `intervals`.

@@ -215,6 +215,7 @@ MeasuredMotion measured_motion(const JointRecording& recording, const FilterOpti
                                Warnings* warnings) {
   MeasuredMotion motion;
   motion.element = recording.element;
+  motion.where = recording.where;
   motion.times = uniform_times(recording.times);
   require_below_half_rate("cutoff", filter.cutoff, filter, recording, motion.times.rate());
   require_below_half_rate("residual_cutoff", filter.residual_cutoff, filter, recording,

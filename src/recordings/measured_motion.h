@@ -66,7 +66,8 @@ struct JointMotion {
 
 /// A recording at equal steps, with velocities and accelerations; doc/theory.md (29)-(31).
 struct MeasuredMotion {
-  std::string element;  ///< the entry of the study: `identify.data[0]`
+  std::string element;   ///< the entry of the study: `identify.data[0]`
+  SourceLocation where;  ///< place of this entry, for messages
   UniformTimes times;
   std::vector<JointMotion> joints;  ///< in the order of the recording
   /// of JointRecording::signals, not filtered, in their units

@@ -11,7 +11,7 @@ namespace codesign {
 /// The variances that a kernel estimates from contributions of parts of recordings, if the noise is
 /// white and of variance one: p entries each, doc/theory.md (35).
 struct KernelMoments {
-  Eigen::VectorXd means;    ///< zero of parameters without contributions
+  Eigen::VectorXd means;    ///< zero of parameters to which white noise contributes nothing
   Eigen::VectorXd degrees;  ///< 2 mean^2 / variance, at least 1, for Student's t
 };
 

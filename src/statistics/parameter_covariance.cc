@@ -60,10 +60,11 @@ Eigen::MatrixXd root_of_inverse(const Eigen::MatrixXd& R, const Identifiability&
 /// What parts of the recordings contribute to the error of the parameters.
 struct Contributions {
   Eigen::MatrixXd terms;  ///< parts x p
-  SeriesLengths parts;    ///< rows of each
   SeriesLengths lengths;  ///< parts of each recording
-  /// kernel_moments()
+  /// kernel_moments(), which may take `terms_of_each` parts as one
+  SeriesLengths parts, lengths_in_parts;
   std::vector<Eigen::MatrixXd> maps;
+  Eigen::Index terms_of_each = 1;
 };
 
 /// A fit with J = Q L^-1 on its rank: residuals, Q and L = root_of_inverse().
@@ -94,9 +95,11 @@ SeriesLengths pieces_of_each(const SeriesLengths& lengths, const SeriesLengths& 
 /// Sums over parts of (J^T J)^-1 J^T r.
 Contributions contributions_of_parts(const LinearizedFit& fit, const SeriesLengths& lengths,
                                      const SeriesLengths& parts) {
+  const SeriesLengths of_each = pieces_of_each(lengths, parts);
   Contributions result{Eigen::MatrixXd(to_signed(parts.size()), fit.root.rows()),
+                       of_each,
                        parts,
-                       pieces_of_each(lengths, parts),
+                       of_each,
                        {fit.root.transpose()}};
   Eigen::Index begin = 0;
   for (std::size_t part = 0; part < parts.size(); ++part) {
@@ -110,10 +113,9 @@ Contributions contributions_of_parts(const LinearizedFit& fit, const SeriesLengt
 /// the information draws the fit, so that its residuals are too small.
 Contributions contributions_of_pieces(const LinearizedFit& fit, const SeriesLengths& lengths,
                                       const SeriesLengths& pieces) {
-  Contributions result{Eigen::MatrixXd(to_signed(pieces.size()), fit.root.rows()),
-                       pieces,
-                       pieces_of_each(lengths, pieces),
-                       {}};
+  const SeriesLengths of_each = pieces_of_each(lengths, pieces);
+  Contributions result{
+      Eigen::MatrixXd(to_signed(pieces.size()), fit.root.rows()), of_each, pieces, of_each, {}};
   Eigen::Index begin = 0;
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
     Eigen::MatrixXd left = Eigen::MatrixXd::Identity(fit.Q.cols(), fit.Q.cols());
@@ -145,63 +147,94 @@ void set_symmetric_intervals(double level, ParameterCovariance* result) {
   result->above = result->below;
 }
 
-/// Sets the degrees of freedom of an estimate by this lag. @return the factor of each deviation
-/// with which the estimate has the right mean if the noise is white
-Eigen::VectorXd correct_by_moments(const LinearizedFit& fit, const Contributions& of, int lag,
-                                   ParameterCovariance* result) {
-  const KernelMoments moments =
-      kernel_moments(fit.Q, fit.residuals.cols(), of.parts, of.lengths, lag, of.maps);
+/// What makes an estimate right on average if the noise is white.
+struct Correction {
+  Eigen::VectorXd factors;  ///< of each deviation; zero where the contributions tell no variance
+  Eigen::VectorXd white;    ///< the variance to take there, that of white noise; else zero
+};
+
+/// Sets the degrees of freedom of an estimate, too. @param lag in terms
+Correction correct_by_moments(const LinearizedFit& fit, const Contributions& of, int lag,
+                              ParameterCovariance* result) {
+  const auto lag_in_parts =
+      static_cast<int>(std::lround(lag / static_cast<double>(of.terms_of_each)));
+  const KernelMoments moments = kernel_moments(fit.Q, fit.residuals.cols(), of.parts,
+                                               of.lengths_in_parts, lag_in_parts, of.maps);
   result->degrees = result->degrees.cwiseMin(moments.degrees);
-  Eigen::VectorXd factors = Eigen::VectorXd::Ones(moments.means.size());
-  for (Eigen::Index k = 0; k < factors.size(); ++k)
+  const Eigen::Index p = moments.means.size();
+  Correction correction{Eigen::VectorXd::Zero(p), Eigen::VectorXd::Zero(p)};
+  for (Eigen::Index k = 0; k < p; ++k) {
+    const double squares = fit.root.row(k).squaredNorm();
     if (moments.means[k] > 0.0)
-      factors[k] = std::sqrt(fit.root.row(k).squaredNorm() / moments.means[k]);
-  return factors;
+      correction.factors[k] = std::sqrt(squares / moments.means[k]);
+    else
+      correction.white[k] = result->residual_variance * squares;
+  }
+  return correction;
 }
 
 void use_kernel(const LinearizedFit& fit, const Contributions& of, const IntervalOptions& options,
                 ParameterCovariance* result) {
   const LongRunCovariance estimate = long_run_covariance(of.terms, of.lengths, options.lag);
-  const Eigen::VectorXd factors = correct_by_moments(fit, of, estimate.lag, result);
-  result->covariance = factors.asDiagonal() * estimate.covariance * factors.asDiagonal();
+  const Correction correct = correct_by_moments(fit, of, estimate.lag, result);
+  result->covariance =
+      correct.factors.asDiagonal() * estimate.covariance * correct.factors.asDiagonal();
+  result->covariance.diagonal() += correct.white;
   result->lag = estimate.lag;
   set_symmetric_intervals(options.level, result);
 }
 
 void use_independent(const LinearizedFit& fit, const Contributions& of,
                      const IntervalOptions& options, ParameterCovariance* result) {
-  const Eigen::MatrixXd terms = of.terms * correct_by_moments(fit, of, 0, result).asDiagonal();
+  const Correction correct = correct_by_moments(fit, of, 0, result);
+  const Eigen::MatrixXd terms = of.terms * correct.factors.asDiagonal();
   result->covariance = terms.transpose() * terms;
+  result->covariance.diagonal() += correct.white;
   result->lag = 1;
   set_symmetric_intervals(options.level, result);
 }
 
 // The errors of the parameters are distributed like the drawn sums, so that the interval mirrors
-// their quantiles. The variance of sums of blocks is that of the kernel as wide as a block.
+// their quantiles. The variance of sums of blocks is nearly that of the kernel as wide as a block,
+// in series that are longer.
 void use_bootstrap(const LinearizedFit& fit, const Contributions& of,
                    const IntervalOptions& options, ParameterCovariance* result) {
-  result->lag = options.lag > 0 ? options.lag : automatic_lag(of.terms, of.lengths);
-  const Eigen::VectorXd factors = correct_by_moments(fit, of, result->lag - 1, result);
+  result->lag =
+      block_within(of.lengths, options.lag > 0 ? options.lag : automatic_lag(of.terms, of.lengths));
+  const Correction correct = correct_by_moments(fit, of, result->lag - 1, result);
+  // Single terms may come from any series; in one of its own, one term would always be drawn.
+  const SeriesLengths lengths = result->lag == 1 ? SeriesLengths{of.terms.rows()} : of.lengths;
   const Eigen::MatrixXd draws =
-      bootstrap_sums(of.terms, of.lengths, result->lag, kDraws, kSeed) * factors.asDiagonal();
+      bootstrap_sums(of.terms, lengths, result->lag, kDraws, kSeed) * correct.factors.asDiagonal();
   result->covariance = draws.transpose() * draws / (kDraws - 1.0);
+  result->covariance.diagonal() += correct.white;
   result->below.resize(draws.cols());
   result->above.resize(draws.cols());
   for (Eigen::Index k = 0; k < draws.cols(); ++k) {
-    const double wider = interval_factor(options.level, result->degrees[k]) /
-                         interval_factor(options.level, kInfinite);
-    result->below[k] = wider * empirical_quantile(draws.col(k), 0.5 * (1.0 + options.level));
-    result->above[k] = -wider * empirical_quantile(draws.col(k), 0.5 * (1.0 - options.level));
+    const double factor = interval_factor(options.level, result->degrees[k]),
+                 wider = factor / interval_factor(options.level, kInfinite),
+                 white = factor * std::sqrt(correct.white[k]);
+    result->below[k] =
+        wider * empirical_quantile(draws.col(k), 0.5 * (1.0 + options.level)) + white;
+    result->above[k] =
+        white - wider * empirical_quantile(draws.col(k), 0.5 * (1.0 - options.level));
   }
 }
 
 /// The contributions of single times do not matter, only their sums over equal parts of so many
-/// times that the rate of the samples does not matter. A lag that is given counts times.
+/// times that the rate of the samples does not matter. A lag that is given counts times, of which
+/// the moments take as many together.
 void use_sums(const LinearizedFit& fit, const SeriesLengths& lengths,
               const IntervalOptions& options, ParameterCovariance* result) {
-  const Eigen::Index times = fit.residuals.rows(),
-                     size = options.lag > 0 ? 1 : std::max<Eigen::Index>(1, times / kSums);
-  const Contributions sums = contributions_of_parts(fit, lengths, equal_parts(lengths, size));
+  const Eigen::Index times = fit.residuals.rows(), size = std::max<Eigen::Index>(1, times / kSums);
+  const SeriesLengths parts = equal_parts(lengths, size);
+  Contributions sums =
+      contributions_of_parts(fit, lengths, options.lag > 0 ? equal_parts(lengths, 1) : parts);
+  if (options.lag > 0) {
+    sums.parts = parts;
+    sums.lengths_in_parts = pieces_of_each(lengths, parts);
+    sums.terms_of_each = size;
+  }
   const auto use = options.noise == NoiseModel::kCorrelated ? use_kernel : use_bootstrap;
   use(fit, sums, options, result);
   result->lag = in_times(result->lag, times, sums.terms.rows());
@@ -275,11 +308,15 @@ ParameterCovariance parameter_covariance(const Eigen::MatrixXd& residuals,
   ParameterCovariance result;
   const Eigen::MatrixXd R = upper_factor(jacobian);
   result.identifiability = find_identifiable(R);
-  const auto rows = static_cast<double>(residuals.size() - eliminated.left_out);
+  const Eigen::MatrixXd& counted = eliminated.counted;
+  const bool all_count = counted.size() == 0;
+  const double rows = all_count ? static_cast<double>(residuals.size()) : counted.sum(),
+               squares = all_count ? residuals.squaredNorm()
+                                   : residuals.cwiseProduct(counted).squaredNorm();
   const Eigen::Index rank = result.identifiability.rank;
   const double left = std::max(1.0, rows - static_cast<double>(rank + eliminated.count));
   result.degrees.setConstant(jacobian.cols(), left);
-  result.residual_variance = residuals.squaredNorm() / left;
+  result.residual_variance = squares / left;
   const Eigen::MatrixXd root = root_of_inverse(R, result.identifiability);
   if (options.noise == NoiseModel::kWhite) {
     result.covariance = result.residual_variance * root * root.transpose();

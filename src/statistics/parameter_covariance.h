@@ -39,7 +39,8 @@ struct EliminatedUnknowns {
   /// rows of each piece with unknowns of its own; a piece lies within one recording. Empty without
   /// such unknowns
   SeriesLengths pieces = {};
-  Eigen::Index left_out = 0;  ///< residuals that are zero since they do not count
+  /// N x m: zero of residuals that do not count in their variance, else one; empty: all count
+  Eigen::MatrixXd counted = {};
 };
 
 /// @param residuals at the fit, one row per time and one column per output (joint), N x m; several

@@ -110,11 +110,14 @@ Eigen::MatrixXd running_sums(const Eigen::MatrixXd& terms, Eigen::Index begin,
   return sums;
 }
 
+/// Longer blocks of a series would begin at too few places to differ from draw to draw.
+Eigen::Index longest_block(Eigen::Index length) { return std::max<Eigen::Index>(1, length / 4); }
+
 /// Adds to each draw the sum over blocks of one series. The last block is cut to the missing
 /// length.
 void add_series(const Eigen::MatrixXd& sums, Eigen::Index block, std::mt19937* generator,
                 Eigen::MatrixXd* draws) {
-  const Eigen::Index length = sums.rows() - 1, size = std::min(block, length),
+  const Eigen::Index length = sums.rows() - 1, size = std::min(block, longest_block(length)),
                      starts = length - size + 1;
   for (Eigen::Index draw = 0; draw < draws->rows(); ++draw)
     for (Eigen::Index filled = 0; filled < length; filled += size) {
@@ -187,14 +190,18 @@ Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengt
   Eigen::Index begin = 0;
   for (const Eigen::Index length : lengths) {
     const Eigen::MatrixXd sums = running_sums(terms, begin, length);
+    // Every longer window is the whole series.
+    const Eigen::Index within = std::min<Eigen::Index>(lag, length - 1);
+    const Eigen::RowVectorXd beyond = static_cast<double>(lag - within) * sums.row(length);
     Eigen::RowVectorXd both = Eigen::RowVectorXd::Zero(terms.cols());
     const auto window = [&](Eigen::Index end) {
-      return sums.row(std::min(end + 1, length)) - sums.row(std::max<Eigen::Index>(end - lag, 0));
+      return sums.row(std::min(end + 1, length)) -
+             sums.row(std::max<Eigen::Index>(end - within, 0));
     };
-    for (Eigen::Index end = 0; end < lag; ++end) both += window(end);
+    for (Eigen::Index end = 0; end < within; ++end) both += window(end);
     for (Eigen::Index k = 0; k < length; ++k) {
-      both += window(k + lag);
-      result.row(begin + k) = both / (lag + 1.0);
+      both += window(k + within);
+      result.row(begin + k) = (both + beyond) / (lag + 1.0);
       both -= window(k);
     }
     begin += length;
@@ -217,6 +224,11 @@ LongRunCovariance long_run_covariance(const Eigen::MatrixXd& terms, const Series
                          recolor.asDiagonal() / kOrders;
   }
   return result;
+}
+
+int block_within(const SeriesLengths& lengths, int block) {
+  const Eigen::Index longest = *std::max_element(lengths.begin(), lengths.end());
+  return static_cast<int>(std::min<Eigen::Index>(block, longest_block(longest)));
 }
 
 Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,

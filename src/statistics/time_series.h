@@ -55,11 +55,14 @@ Eigen::MatrixXd bartlett_product(const Eigen::MatrixXd& terms, const SeriesLengt
 /// Draws sums with as many terms as `terms` has rows, in blocks of neighbours (Kuensch's moving
 /// blocks), minus their mean; doc/theory.md (36). Blocks do not cross from one series to the next.
 /// The same arguments give the same numbers everywhere.
-/// @param terms one per row, p columns. @param block neighbours per block, at least 1; a shorter
-/// series is one block
+/// @param terms one per row, p columns. @param block neighbours per block, at least 1; of each
+/// series at most a quarter
 /// @return draws x p
 Eigen::MatrixXd bootstrap_sums(const Eigen::MatrixXd& terms, const SeriesLengths& lengths,
                                int block, int draws, std::uint32_t seed);
+
+/// The block that bootstrap_sums() takes of the longest series.
+int block_within(const SeriesLengths& lengths, int block);
 
 /// The number below which a fraction of the entries lies, by linear interpolation. @param fraction
 /// from 0 to 1

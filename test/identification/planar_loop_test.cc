@@ -50,5 +50,26 @@ TEST(PlanarLoop, IsIdentifiedFromItsMotor) {
     EXPECT_NEAR(found.numbers[k].value, shared.numbers[k].value, 1e-5) << found.numbers[k].name;
 }
 
+/// The joints move together, so that the speed of a mask would not be that of one.
+TEST(PlanarLoop, BoundsAtRestNeedIndependentJoints) {
+  const Problem problem = linkage(true);
+  StudyRecordings recordings;
+  recordings.data = {
+      record_run(problem, {{"mass", 1.6}, {"mu", 0.35}}, {"crank_joint", "rod_joint"}, 500.0)};
+  recordings.data[0].element = "identify.data[0]";
+  recordings.data[0].where = {"study.yaml", 5};
+  JointSamples& crank = recordings.data[0].joints[0];
+  recordings.data[0].joints[1].effort.clear();
+  crank.least_speed = 0.05;
+  crank.has_bounds = true;
+  try {
+    identify(problem, recordings, {}, nullptr);
+    FAIL() << "not refused";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.fault().element, "identify.data[0].mask.rest");
+    EXPECT_EQ(error.fault().where.line, 5);
+  }
+}
+
 }  // namespace
 }  // namespace codesign

@@ -29,6 +29,11 @@ class IdentifyThenTune(unittest.TestCase):
                     self.assertLess(abs(robot["errors"][name]), 5.0, "far off its stated deviation")
                 self.assertTrue(os.path.exists(os.path.join(folder, f"robot_{k}", "identified_overlay.urdf")))
             self.assertNotEqual(robots[0]["mu"], robots[1]["mu"])
+            mask = os.umask(0o022)
+            os.umask(mask)
+            for name in ("robots.json", os.path.join("truth", "run.yaml"), os.path.join("robot_0", "recording.csv")):
+                self.assertEqual(os.stat(os.path.join(folder, name)).st_mode & 0o777, 0o666 & ~mask, name)
+            self.assertEqual([name for name in os.listdir(os.path.join(folder, "truth")) if name.startswith(".")], [])
 
     def test_says_what_failed(self):
         done = subprocess.run([SCRIPT, "--codesign", "false", "--robots", "1"], stderr=subprocess.PIPE, text=True, check=False)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "math/dense.h"
@@ -83,6 +84,69 @@ TEST(KernelMoments, AreTheTracesOfTheQuadraticForm) {
         EXPECT_NEAR(moments.degrees[k] / (WC.trace() * WC.trace() / (WC * WC).trace()), 1.0, 1e-9);
       }
     }
+}
+
+/// Parts that are mapped each in its own way, as pieces of recordings are.
+TEST(KernelMoments, TakeTheMapOfEachPart) {
+  const Regression fit;
+  const SeriesLengths fives(12, 5);
+  std::vector<Eigen::MatrixXd> maps;
+  for (int part = 0; part < 12; ++part)
+    maps.push_back((1.0 + 0.1 * part) * fit.root.transpose() +
+                   0.02 * part * Eigen::MatrixXd::Ones(3, 3));
+  for (const int lag : {0, 3}) {
+    const KernelMoments moments =
+        kernel_moments(fit.Q, Regression::kOutputs, fives, {5, 7}, lag, maps);
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      Eigen::MatrixXd A = Eigen::MatrixXd::Zero(12, fit.Q.rows());
+      for (Eigen::Index row = 0; row < fit.Q.rows(); ++row) {
+        const Eigen::Index part = row % Regression::kTimes / 5;
+        A(part, row) = fit.Q.row(row).dot(maps[static_cast<std::size_t>(part)].col(k));
+      }
+      A -= A * fit.Q * fit.Q.transpose();
+      const Eigen::MatrixXd WC = kernel_of({5, 7}, lag) * A * A.transpose();
+      EXPECT_NEAR(moments.means[k] / WC.trace(), 1.0, 1e-9);
+      EXPECT_NEAR(moments.degrees[k] / (WC.trace() * WC.trace() / (WC * WC).trace()), 1.0, 1e-9);
+    }
+  }
+}
+
+/// A window beyond a series is the whole series, however long.
+TEST(KernelMoments, OfAnyLagTakeNoLonger) {
+  constexpr int kLag = std::numeric_limits<int>::max();
+  const Regression fit;
+  const SeriesLengths lengths{25, 35};
+  const KernelMoments moments = kernel_moments(fit.Q, Regression::kOutputs, SeriesLengths(60, 1),
+                                               lengths, kLag, {fit.root.transpose()});
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::MatrixXd A = fit.on_noise(k, SeriesLengths(60, 1)),
+                          WC = kernel_of(lengths, kLag) * A * A.transpose();
+    EXPECT_NEAR(moments.means[k] / WC.trace(), 1.0, 1e-9);
+    EXPECT_NEAR(moments.degrees[k] / (WC.trace() * WC.trace() / (WC * WC).trace()), 1.0, 1e-9);
+  }
+}
+
+/// The only time that tells a parameter has no residual: white noise alone tells its variance.
+TEST(KernelMoments, WithoutThemTheVarianceIsThatOfWhiteNoise) {
+  Eigen::MatrixXd J(80, 2);
+  Eigen::VectorXd noise(80);
+  for (Eigen::Index k = 0; k < 80; ++k) {
+    const auto t = static_cast<double>(k);
+    J.row(k) << (k == 7 ? 3.0 : 0.0), (k == 7 ? 0.0 : std::sin(0.3 * t));
+    noise[k] = std::sin(t * t);
+  }
+  const Eigen::VectorXd residuals = noise - J * least_norm(J).solve(noise);
+  for (const NoiseModel model : {NoiseModel::kCorrelated, NoiseModel::kBootstrap}) {
+    IntervalOptions options;
+    options.noise = model;
+    const ParameterCovariance known = parameter_covariance(residuals, J, {80}, options);
+    const double variance = residuals.squaredNorm() / 78.0 / 9.0;
+    EXPECT_NEAR(known.covariance(0, 0), variance, 1e-9);
+    EXPECT_EQ(known.degrees[0], 1.0);
+    EXPECT_NEAR(known.above[0], student_quantile(0.975, 1.0) * std::sqrt(variance), 1e-7);
+    EXPECT_NEAR(known.below[0], known.above[0], 1e-7);
+    EXPECT_GT(known.degrees[1], 5.0);
+  }
 }
 
 /// A mean of white noise: lag 0 has N - 1 degrees of freedom, and the mean (N - 1)/N of the truth.

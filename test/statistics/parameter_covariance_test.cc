@@ -1,10 +1,12 @@
 // Copyright 2026 the mechanism_codesign authors. SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "math/arrays.h"
 #include "math/dense.h"
 #include "statistics/parameter_covariance.h"
 
@@ -65,6 +67,21 @@ TEST(ParameterCovariance, TheKernelOfTheScoresIsThatOfStatsmodels) {
   EXPECT_NEAR(covariance(0, 0), 0.11539627615412597, 1e-12);
   EXPECT_NEAR(covariance(0, 2), -0.20773399012268192, 1e-12);
   EXPECT_NEAR(covariance(2, 2), 0.47161190334442027, 1e-12);
+}
+
+TEST(ParameterCovariance, ResidualsThatDoNotCountLeaveTheirVariance) {
+  const LinearFit fit;
+  EliminatedUnknowns eliminated;
+  eliminated.counted.setOnes(100, 1);
+  eliminated.counted.topRows(20).setZero();
+  for (const double beyond : {0.0, 50.0}) {
+    Eigen::MatrixXd residuals = fit.residuals;
+    residuals.topRows(20).setConstant(beyond);
+    const ParameterCovariance known =
+        parameter_covariance(residuals, fit.X, {100}, options_of(NoiseModel::kWhite), eliminated);
+    EXPECT_NEAR(known.residual_variance, fit.residuals.tail(80).squaredNorm() / 77.0, 1e-12);
+    EXPECT_EQ(known.degrees[0], 77.0);
+  }
 }
 
 TEST(ParameterCovariance, OutputsAtOneTimeDependOnEachOther) {
@@ -172,6 +189,45 @@ TEST(ParameterCovariance, AGivenLagCountsTimes) {
   const ParameterCovariance automatic =
       parameter_covariance(residuals, X, {2000}, options_of(NoiseModel::kBootstrap));
   EXPECT_EQ(automatic.lag % 4, 0) << "sums over four times";
+}
+
+/// A given lag leaves the moments nearly those of the same lag in sums.
+TEST(ParameterCovariance, AGivenLagHasTheMomentsOfSums) {
+  constexpr Eigen::Index kCount = 4000;
+  const Eigen::MatrixXd X = Eigen::MatrixXd::Ones(kCount, 1);
+  Eigen::VectorXd residuals(kCount);
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (double& value : residuals) value = normal(generator);
+  residuals.array() -= residuals.mean();
+  for (const NoiseModel noise : {NoiseModel::kCorrelated, NoiseModel::kBootstrap}) {
+    const ParameterCovariance known =
+        parameter_covariance(residuals, X, {kCount}, options_of(noise, 200));
+    EXPECT_EQ(known.lag, 200);
+    EXPECT_NEAR(known.degrees[0] * 200.0 / kCount, 1.5, 0.1);
+  }
+}
+
+/// Many recordings, each shorter than the block asked for, or of one time: without noise that is
+/// correlated, the deviation is nearly that of white noise.
+TEST(ParameterCovariance, BlocksFitIntoShortRecordings) {
+  constexpr Eigen::Index kCount = 400;
+  const Eigen::MatrixXd X = Eigen::MatrixXd::Ones(kCount, 1);
+  Eigen::VectorXd residuals(kCount);
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal;
+  for (double& value : residuals) value = normal(generator);
+  residuals.array() -= residuals.mean();
+  const double white =
+      parameter_covariance(residuals, X, {kCount}, options_of(NoiseModel::kWhite)).covariance(0, 0);
+  for (const Eigen::Index length : {1, 2, 10, 40}) {
+    const ParameterCovariance known =
+        parameter_covariance(residuals, X, SeriesLengths(to_index(kCount / length), length),
+                             options_of(NoiseModel::kBootstrap, 50));
+    EXPECT_EQ(known.lag, std::max<Eigen::Index>(1, length / 4));
+    EXPECT_NEAR(std::sqrt(known.covariance(0, 0) / white), 1.0, 0.25) << length;
+    EXPECT_GT(known.above[0], 1.5 * std::sqrt(white)) << length;
+  }
 }
 
 /// How often intervals at 95 % hold the truth, in 200 runs of white noise in which each piece of

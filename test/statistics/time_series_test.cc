@@ -148,8 +148,13 @@ TEST(BlockBootstrap, RepeatsItselfForOneSeed) {
             bootstrap_sums(slow_terms(), {400, 600}, 20, 10, 4));
 }
 
-TEST(BlockBootstrap, ASeriesOfOneBlockNeverVaries) {
-  EXPECT_LT(bootstrap_sums(slow_terms(), {1000}, 5000, 10, 1).norm(), 1e-9);
+TEST(BlockBootstrap, ABlockIsAtMostAQuarterOfItsSeries) {
+  const Eigen::MatrixXd draws = bootstrap_sums(slow_terms(), {1000}, 5000, 10, 1);
+  EXPECT_EQ(draws, bootstrap_sums(slow_terms(), {1000}, 250, 10, 1));
+  EXPECT_GT(draws.norm(), 1.0);
+  EXPECT_EQ(block_within({400, 600}, 5000), 150);
+  EXPECT_EQ(block_within({400, 600}, 20), 20);
+  EXPECT_EQ(block_within({3, 2}, 20), 1);
 }
 
 // Blocks that end at the end of the first series do not reach into the second.

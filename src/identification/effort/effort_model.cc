@@ -18,11 +18,6 @@ namespace {
 // threads.
 constexpr int kBlock = 64;
 
-Status at_sample(int sample, Status status) {
-  status.cause = "sample " + std::to_string(sample) + ": " + status.cause;
-  return status;
-}
-
 Eigen::MatrixXd rows_of(const Eigen::MatrixXd& all, const std::vector<int>& rows) {
   Eigen::MatrixXd part(to_signed(rows.size()), all.cols());
   for (std::size_t k = 0; k < rows.size(); ++k) part.row(to_signed(k)) = all.row(rows[k]);
@@ -36,6 +31,8 @@ void require_shape(const MotionSamples& motion, std::size_t joints) {
           "a measured motion needs one row per joint and one column per sample");
   if (!motion.times.empty() && to_signed(motion.times.size()) != motion.position.cols())
     throw std::invalid_argument("a measured motion needs one time per sample");
+  if (!motion.numbers.empty() && to_signed(motion.numbers.size()) != motion.position.cols())
+    throw std::invalid_argument("a measured motion needs one number per sample");
   if (motion.begins.empty() || motion.begins.front() != 0 ||
       !std::is_sorted(motion.begins.begin(), motion.begins.end()))
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");
@@ -117,6 +114,12 @@ DriveMotion EffortModel::given(int sample) const {
     return In<double>(of.data() + sample * drives, drives);
   };
   return {column(position_), column(velocity_), column(acceleration_)};
+}
+
+Status EffortModel::at_sample(int sample, Status status) const {
+  const int number = motion_.numbers.empty() ? sample : motion_.numbers[to_index(sample)];
+  status.cause = "sample " + std::to_string(number) + ": " + status.cause;
+  return status;
 }
 
 Status EffortModel::prepare(const std::vector<double>& parameters, EffortWorker* worker) const {

@@ -27,6 +27,7 @@ struct MotionSamples {
   /// recording
   std::vector<int> begins{0};
   std::vector<double> times{};  ///< of each sample [s], for loads that depend on the time; none: 0
+  std::vector<int> numbers{};   ///< of each sample, for messages; empty: from 0 on
 };
 
 /// The efforts that a mechanism needs for a measured motion, and their exact derivatives by the
@@ -105,6 +106,8 @@ class EffortModel {
   double time(int sample) const {
     return motion_.times.empty() ? 0.0 : motion_.times[to_index(sample)];
   }
+  /// A failure that names the sample.
+  Status at_sample(int sample, Status status) const;
   Status follow(const MotionProjection& projection, int sample, EffortWorker* worker);
   Status prepare(const std::vector<double>& parameters, EffortWorker* worker) const;
   Failure evaluate_block(int block, EffortWorker* worker, Eigen::MatrixXd* efforts,

@@ -38,9 +38,10 @@ EffortResiduals::EffortResiduals(const CompiledSystem& system, const FitVariable
   std::vector<bool> with_effort;
   with_effort.reserve(joints.size());
   for (const MeasuredJoint& joint : joints) with_effort.push_back(joint.with_effort);
-  bounds_ = std::make_unique<RestBounds>(bounds_of(samples_of_all(names), names));
+  bounds_ = std::make_unique<RestBounds>(bounds_of(samples_of_all(names), joints));
   model_ = std::make_unique<EffortModel>(system, std::move(joints), bounds_->samples(), threads,
                                          signals_);
+  refuse_bounds_of_projected();
   const std::vector<int>& drives = model_->driven().drives;
   for (std::size_t k = 0; k < drives.size(); ++k) {
     const auto joint = to_index(drives[k]);
@@ -118,17 +119,31 @@ MotionSamples EffortResiduals::samples_of_all(const std::vector<std::string>& jo
 }
 
 RestBounds EffortResiduals::bounds_of(const MotionSamples& samples,
-                                      const std::vector<std::string>& joints) const {
+                                      const std::vector<MeasuredJoint>& joints) const {
   Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(samples.velocity.rows(), samples.velocity.cols());
   for (std::size_t r = 0; r < recordings_.size(); ++r)
     for (std::size_t j = 0; j < joints.size(); ++j) {
-      const JointMotion& motion = motion_of(recordings_[r], joints[j]);
-      if (!motion.has_bounds || motion.effort.size() == 0) continue;
+      const JointMotion& motion = motion_of(recordings_[r], joints[j].name);
+      if (!motion.has_bounds || !joints[j].with_effort) continue;
       for (Eigen::Index k = begins_[r]; k < begins_[r + 1]; ++k)
         if (std::abs(samples.velocity(to_signed(j), k)) < motion.least_speed)
           speeds(to_signed(j), k) = motion.least_speed;
     }
   return RestBounds(samples, speeds);
+}
+
+// The projection would change the speed at which a joint just moves.
+void EffortResiduals::refuse_bounds_of_projected() const {
+  if (model_->driven().surplus.empty()) return;
+  for (const MeasuredMotion& recording : recordings_)
+    for (const JointMotion& motion : recording.joints)
+      if (motion.has_bounds && motion.least_speed > 0.0)
+        throw InputError({recording.where, recording.element + ".mask.rest",
+                          "more joints are measured than there are degrees of freedom, whose "
+                          "motion together has no joint just move",
+                          "bounds",
+                          "rest: leave_out, or recordings without the positions and velocities of "
+                          "dependent joints"});
 }
 
 std::vector<double> EffortResiduals::times() const {

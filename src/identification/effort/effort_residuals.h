@@ -28,7 +28,8 @@ class EffortResiduals final : public RecordingResiduals {
  public:
   /// @param system, variables must outlive this. @param recordings all with the same joints.
   /// @param joints the joints of the recordings whose motion counts, as require_same_joints()
-  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system();
+  /// returns them. @param signals of the recordings. @throws InputError as make_driven_system(),
+  /// and for bounds at rest of more joints than there are degrees of freedom;
   /// whether enough samples count is for the caller to ask, as require_counted() does
   EffortResiduals(const CompiledSystem& system, const FitVariables& variables,
                   std::vector<MeasuredJoint> joints, std::vector<MeasuredMotion> recordings,
@@ -64,7 +65,9 @@ class EffortResiduals final : public RecordingResiduals {
  private:
   MotionSamples samples_of_all(const std::vector<std::string>& joints);
   /// The samples at which joints rest between bounds.
-  RestBounds bounds_of(const MotionSamples& samples, const std::vector<std::string>& joints) const;
+  RestBounds bounds_of(const MotionSamples& samples,
+                       const std::vector<MeasuredJoint>& joints) const;
+  void refuse_bounds_of_projected() const;
   /// The shift of each joint whose start is fitted: its start in x minus the start from which its
   /// positions were integrated; shifted joints x recordings [rad or m].
   Eigen::MatrixXd shifts(const Eigen::VectorXd& x) const;

@@ -20,12 +20,14 @@ RestBounds::RestBounds(const MotionSamples& measured, const Eigen::MatrixXd& spe
   for (Eigen::MatrixXd* rows : {&samples_.position, &samples_.velocity, &samples_.acceleration})
     rows->resize(joints, count + added);
   samples_.times.clear();
+  samples_.numbers.clear();
   Eigen::Index place = 0;
   const auto add = [&](Eigen::Index sample) {
     samples_.position.col(place) = measured.position.col(sample);
     samples_.velocity.col(place) = measured.velocity.col(sample);
     samples_.acceleration.col(place) = measured.acceleration.col(sample);
     if (!measured.times.empty()) samples_.times.push_back(measured.times[to_index(sample)]);
+    samples_.numbers.push_back(static_cast<int>(sample));
     return place++;
   };
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -45,6 +47,7 @@ RestBounds::RestBounds(const MotionSamples& measured, const Eigen::MatrixXd& spe
 void take_nearer_bound(const Eigen::MatrixXd& forward, Eigen::MatrixXd* backward) {
   for (Eigen::Index k = 0; k < backward->rows(); ++k) {
     const double one = (*backward)(k, 0), other = forward(k, 0);
+    if (one == other) continue;
     if (one * other <= 0.0)
       backward->row(k).setZero();
     else if (std::abs(other) < std::abs(one))

@@ -17,13 +17,12 @@ class RestBounds {
   /// moves; zero where it does not rest
   RestBounds(const MotionSamples& measured, const Eigen::MatrixXd& speeds);
 
-  /// The motion with the samples that were added.
+  /// The motion with the samples that were added, which have the numbers of the measured ones.
   const MotionSamples& samples() const { return samples_; }
   /// The added samples' places do not matter for these: the place of a measured sample.
   Eigen::Index place(Eigen::Index sample) const {
     return places_[static_cast<std::size_t>(sample)];
   }
-  const std::vector<Eigen::Index>& places() const { return places_; }
   /// Whether a joint rests at a sample.
   bool rests(Eigen::Index joint, Eigen::Index sample) const {
     return bounds_.size() > 0 && bounds_(joint, sample) >= 0;

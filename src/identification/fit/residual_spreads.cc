@@ -28,7 +28,8 @@ Eigen::VectorXd rms_of(const Eigen::MatrixXd& residuals, const Eigen::MatrixXd& 
     return (residuals.colwise().squaredNorm() / static_cast<double>(residuals.rows()))
         .cwiseSqrt()
         .transpose();
-  return residuals.colwise()
+  return residuals.cwiseProduct(counted)
+      .colwise()
       .squaredNorm()
       .cwiseQuotient(counted.colwise().sum())
       .cwiseSqrt()

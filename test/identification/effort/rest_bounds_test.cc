@@ -31,6 +31,7 @@ TEST(RestBounds, AddsAJointThatJustMovesEitherWay) {
   ASSERT_EQ(samples.position.cols(), 7);
   EXPECT_EQ(samples.begins, (std::vector<int>{0, 4}));
   EXPECT_EQ(samples.times, (std::vector<double>{0.0, 0.0, 0.0, 0.1, 0.5, 0.5, 0.5}));
+  EXPECT_EQ(samples.numbers, (std::vector<int>{0, 0, 0, 1, 2, 2, 2}));
   for (Eigen::Index k = 0; k < 3; ++k)
     EXPECT_EQ(samples.velocity.col(bounds.place(k)), measured.velocity.col(k));
   EXPECT_TRUE(bounds.rests(1, 0) && bounds.rests(0, 2));
@@ -45,6 +46,24 @@ TEST(RestBounds, AddsAJointThatJustMovesEitherWay) {
   }
 }
 
+/// Each of two joints at rest has bounds of its own, with the other one as it was measured.
+TEST(RestBounds, JointsRestBesideEachOther) {
+  MotionSamples measured;
+  measured.position = measured.velocity = measured.acceleration = Eigen::MatrixXd::Random(2, 2);
+  Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(2, 2);
+  speeds.col(1) << 0.2, 0.3;
+  const RestBounds bounds(measured, speeds);
+  ASSERT_EQ(bounds.samples().velocity.cols(), 6);
+  for (const Eigen::Index joint : {0, 1})
+    for (const bool is_forward : {false, true}) {
+      const Eigen::Vector2d velocity =
+          bounds.samples().velocity.col(bounds.bound(joint, 1, is_forward));
+      EXPECT_EQ(velocity[joint], (is_forward ? 1.0 : -1.0) * speeds(joint, 1));
+      EXPECT_EQ(velocity[1 - joint], measured.velocity(1 - joint, 1));
+    }
+  EXPECT_EQ(bounds.samples().velocity.col(bounds.place(1)), measured.velocity.col(1));
+}
+
 TEST(RestBounds, WithoutARestTheMotionStays) {
   MotionSamples measured;
   measured.position = measured.velocity = measured.acceleration = Eigen::MatrixXd::Random(1, 4);
@@ -54,12 +73,12 @@ TEST(RestBounds, WithoutARestTheMotionStays) {
 }
 
 TEST(NearerBound, CountsOutsideAlone) {
-  Eigen::MatrixXd backward(4, 2), forward(4, 2);
-  backward << -3.0, 1.0, -1.0, 2.0, 1.0, 3.0, 2.0, 4.0;
-  forward << -1.0, 5.0, 1.0, 6.0, 3.0, 7.0, 2.0, 4.0;
+  Eigen::MatrixXd backward(5, 2), forward(5, 2);
+  backward << -3.0, 1.0, -1.0, 2.0, 1.0, 3.0, 2.0, 4.0, 0.0, 9.0;
+  forward << -1.0, 5.0, 1.0, 6.0, 3.0, 7.0, 2.0, 4.0, 0.0, 9.0;
   take_nearer_bound(forward, &backward);
-  Eigen::MatrixXd expected(4, 2);
-  expected << -1.0, 5.0, 0.0, 0.0, 1.0, 3.0, 2.0, 4.0;
+  Eigen::MatrixXd expected(5, 2);
+  expected << -1.0, 5.0, 0.0, 0.0, 1.0, 3.0, 2.0, 4.0, 0.0, 9.0;
   EXPECT_EQ(backward, expected);
 }
 
@@ -176,14 +195,76 @@ TEST(RestBounds, SlopesBehindAFilterAreThoseOfDifferences) {
   Eigen::MatrixXd values, slopes, one, other;
   ASSERT_TRUE(residuals.evaluate(x, &values, &slopes).ok());
   constexpr double kStep = 1e-6;
+  int outside = 0;
+  const Eigen::MatrixXd counted = residuals.counted();
   for (Eigen::Index k = 0; k < 3; ++k) {
     ASSERT_TRUE(residuals.evaluate(x + kStep * Eigen::Vector3d::Unit(k), &one, nullptr).ok());
     ASSERT_TRUE(residuals.evaluate(x - kStep * Eigen::Vector3d::Unit(k), &other, nullptr).ok());
     for (Eigen::Index row = 0; row < values.rows(); ++row)
       if (one(row, 0) * other(row, 0) != 0.0) {  // no bound is crossed
         EXPECT_NEAR(slopes(row, k), (one(row, 0) - other(row, 0)) / (2.0 * kStep), 1e-6);
+        if (counted(row, 0) == 0.0) ++outside;
       }
   }
+  EXPECT_GT(outside, 100);
+}
+
+TEST(RestBounds, FailuresNameTheMeasuredSample) {
+  const Problem problem = arm("cutoff: 0");
+  MotionSamples measured;
+  measured.position = measured.velocity = measured.acceleration = Eigen::MatrixXd::Zero(1, 10);
+  Eigen::MatrixXd speeds = Eigen::MatrixXd::Zero(1, 10);
+  speeds(0, 2) = speeds(0, 4) = 0.1;
+  measured.position(0, 7) = std::nan("");
+  EffortModel model(*system_of(problem), {{"hinge", true, 1.0, {}}},
+                    RestBounds(measured, speeds).samples());
+  const Status status = model.begin(system_of(problem)->parameters());
+  EXPECT_FALSE(status.ok());
+  EXPECT_EQ(status.cause.find("sample 7: "), 0U) << status.cause;
+}
+
+TEST(RestBounds, OfTwoRecordingsAreThoseOfEach) {
+  const Problem problem = arm("cutoff: 0, residual_cutoff: 12, decimate: 3");
+  const FitVariables variables(study_of(problem), &robot_of(problem));
+  const FilterOptions& filter = study_of(problem).identification->filter;
+  const std::vector<JointRecording> recordings = {recording(1.5, RestRule::kBounds),
+                                                  recording(1.2, RestRule::kLeaveOut),
+                                                  recording(1.3, RestRule::kBounds)};
+  const Eigen::Vector3d x(0.25, 0.5, 0.8);
+  const auto residuals_of = [&](const std::vector<JointRecording>& of, Eigen::MatrixXd* slopes) {
+    Warnings warnings;
+    std::vector<MeasuredMotion> motions;
+    for (const JointRecording& each : of)
+      motions.push_back(measured_motion(each, filter, &warnings));
+    EffortResiduals residuals(*system_of(problem), variables, require_same_joints(of), motions,
+                              filter, 1);
+    Eigen::MatrixXd values;
+    EXPECT_TRUE(residuals.begin(x).ok());
+    EXPECT_TRUE(residuals.evaluate(x, &values, slopes).ok());
+    return values;
+  };
+  Eigen::MatrixXd all_slopes, slopes;
+  const Eigen::MatrixXd all = residuals_of(recordings, &all_slopes);
+  Eigen::Index row = 0;
+  for (const JointRecording& each : recordings) {
+    const Eigen::MatrixXd values = residuals_of({each}, &slopes);
+    EXPECT_LT((all.middleRows(row, values.rows()) - values).norm(), 1e-9);
+    EXPECT_LT((all_slopes.middleRows(row, values.rows()) - slopes).norm(), 1e-9);
+    row += values.rows();
+  }
+  EXPECT_EQ(row, all.rows());
+}
+
+/// Rests outside of the bounds are part of the fit, not of the variance of its residuals: inertia,
+/// which they do not tell, is as well known as moving samples fit.
+TEST(RestBounds, ResidualsOfMovingSamplesDecideIntervals) {
+  const std::string white = "cutoff: 0}\n  intervals: {noise: white";
+  const auto deviation_over_rms = [&](double swing) {
+    const IdentificationResult result = fit(swing, white, RestRule::kBounds, 0.05);
+    EXPECT_TRUE(result.status.ok());
+    return result.numbers[0].deviation / result.data[0].rms;
+  };
+  EXPECT_NEAR(deviation_over_rms(kCoulomb + 0.3) / deviation_over_rms(0.3), 1.0, 0.1);
 }
 
 TEST(RestBounds, EffortsWithinThemLeaveTheFit) {
