@@ -64,6 +64,7 @@ std::vector<AtFrequency> FlowingLoop::peaks_of(bool complementary, const Part& p
   const std::optional<FlowingNorm::Peak> largest =
       norm.above({found.front().value, found.front().frequency * period_});
   if (!largest) return found;
+  if (!std::isfinite(largest->value)) return {};
   AtFrequency peak{largest->value, largest->angle / period_};
   double most = -1.0;
   for (const double angle : {largest->angle, -largest->angle})
@@ -87,8 +88,8 @@ void FlowingLoop::find_peaks(LoopMargins* margins) const {
   if (is_bounded) {
     margins->all.sensitivities = peaks_of(false, part);
     margins->all.complementaries = peaks_of(true, part);
-    margins->sensitivity = margins->all.sensitivities.front();
-    margins->complementary = margins->all.complementaries.front();
+    margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
+    margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
   }
   const auto complementary = [&](double w) { return std::abs(part(w)); };
   margins->rest = rest_of(complementary, grid_);

@@ -36,6 +36,7 @@ class FlowingLoop : public FactoredLoop {
   Eigen::MatrixXcd closed_by(std::complex<double> factor) const override;
   Eigen::MatrixXcd by_factor(std::complex<double> factor) const override;
   double frequency_of(std::complex<double> factor, const EigenTriple& pole) const override;
+  AtFrequency at_infinity() const override { return {-open_.D.real(), grid_.back()}; }
 
  private:
   /// The part of the closed loop's output at a frequency.

@@ -183,12 +183,16 @@ bool FlowingNorm::refine(Peak* peak) const {
 
 std::optional<FlowingNorm::Peak> FlowingNorm::above(const Peak& known) const {
   constexpr double kRounding = 1e-9, kFirst = 1e-6, kMost = 1e9, kNear = 1e-6, kExact = 1e-13;
-  double low = known.value * (1.0 + kRounding), high = low;
+  if (known.value == 0.0) return {};
+  // The pencil has no level that is the direct part itself.
+  const double least =
+      std::max(known.value * (1.0 + kRounding), of_fast_signals() * (1.0 + kFirst));
+  double low = least, high = low;
   std::optional<double> angle = angle_at(low, known.angle);
   if (!angle) return {};
   for (double step = kFirst;; step *= 4.0) {
-    if (step > kMost) return {};
-    high = known.value * (1.0 + step);
+    if (step > kMost) return Peak{std::numeric_limits<double>::infinity(), *angle};
+    high = least * (1.0 + step);
     const std::optional<double> there = angle_at(high, *angle);
     if (!there) break;
     low = high;

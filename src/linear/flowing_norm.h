@@ -23,8 +23,9 @@ class FlowingNorm {
   struct Peak {
     double value, angle;
   };
-  /// The largest amplification; none: it does not exceed the known one. @param known at least the
-  /// direct part of the loop.
+  /// The largest amplification; none: it does not exceed the known one; infinite: no bound is
+  /// found.
+  /// @param known at least the direct part of the loop.
   std::optional<Peak> above(const Peak& known) const;
   /// The derivative of an amplification along the direction of the space, at a fixed angle.
   double derivative_of(const Peak& peak) const;

@@ -49,7 +49,7 @@ Element in_order(std::vector<Element> elements, std::vector<int> order, const Th
 FlowingSpace values_of(const ComplexSpace& space);
 FlowingSpace changes_of(const ComplexSpace& space);
 
-/// The map of x over a period where w = (factor - 1) (y + w): of the loop that is closed by factor
+/// The map of x over a period where w = (factor - 1) y: of the loop that is closed by factor
 /// times its output.
 Eigen::MatrixXcd map_with(const FlowingSpace& space, std::complex<double> factor);
 /// Its derivative by the factor, and along a direction. @param change of the loop.

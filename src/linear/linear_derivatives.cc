@@ -119,13 +119,13 @@ void LinearDerivatives::step(std::size_t direction) {
   Eigen::MatrixXcd right =
       product(position.leftCols(layout.n), motion.q) + product(velocity, motion.v);
   right.rightCols(layout.states) += position.rightCols(layout.states);
-  const Eigen::MatrixXcd z = complex_solution(rate, -right);
+  motion.z = complex_solution(rate, -right);
   Eigen::MatrixXcd A = Eigen::MatrixXcd::Zero(x, x);
   A.block(0, f, f, f).setIdentity();
   for (Eigen::Index k = 0; k < f; ++k)
-    A.row(f + k) = z.row(motion_.coordinates().columns[to_index(k)]);
-  A.bottomRows(layout.states) = z.bottomRows(layout.states);
-  set_flow(A, z);
+    A.row(f + k) = motion.z.row(motion_.coordinates().columns[to_index(k)]);
+  A.bottomRows(layout.states) = motion.z.bottomRows(layout.states);
+  set_flow(A);
 }
 
 /// Sets the states without the held outputs that are disturbances: currents of motors follow them.
@@ -158,7 +158,7 @@ Eigen::Index LinearDerivatives::disturbance_of(std::size_t controller) const {
 }
 
 /// Takes the held outputs that are disturbances from the states to the inputs.
-void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& z) {
+void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A) {
   const ComplexMotion& motion = space_->motion;
   const Layout& layout = system_.layout();
   Eigen::MatrixXcd C(to_signed(controllers_), A.cols());
@@ -173,7 +173,7 @@ void LinearDerivatives::set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixX
         row[motion.motions + entry.column - layout.n] += entry.value;
     }
     for (const auto& entry : gradient.velocity) row += entry.value * motion.v.row(entry.column);
-    for (const auto& entry : gradient.rate) row += entry.value * z.row(entry.column);
+    for (const auto& entry : gradient.rate) row += entry.value * motion.z.row(entry.column);
     C.row(to_signed(c)) = row;
   }
   const Eigen::Index states = to_signed(kept_.size());

@@ -51,7 +51,7 @@ class LinearDerivatives {
   };
 
   void step(std::size_t direction);
-  void set_flow(const Eigen::MatrixXcd& A, const Eigen::MatrixXcd& z);
+  void set_flow(const Eigen::MatrixXcd& A);
   Eigen::MatrixXcd directions_of(const Eigen::MatrixXcd& rows) const;
   void keep_states();
   Eigen::MatrixXcd kept_rows(const Eigen::MatrixXcd& jump) const;

@@ -83,6 +83,10 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
   for (const double w : grid_) L.push_back(at(w));
   take_gain(at(0.0).real(), 0.0, &margins->all);
   if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), &margins->all);
+  // A pole passes through infinity, and signals that are fast enough meet any delay.
+  const double far = period_ > 0.0 ? 0.0 : -open_.D(0, 0);
+  take_gain(far, grid_.back(), &margins->all);
+  if (std::abs(far) > 1.0) margins->all.delays.push_back({0.0, grid_.back()});
   for (std::size_t k = 0; k + 1 < grid_.size(); ++k) {
     const bool is_end = period_ > 0.0 && k + 2 == grid_.size();
     if (!is_end && (L[k].imag() < 0.0) != (L[k + 1].imag() < 0.0) &&
@@ -110,6 +114,7 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   all.complementaries = peaks(grid_, complementary);
   const double far = functions_->closed.at_infinity();
   if (period_ == 0.0) all.sensitivities.push_back({std::abs(1.0 + far), grid_.back()});
+  if (period_ == 0.0 && far != 0.0) all.complementaries.push_back({std::abs(far), grid_.back()});
   margins->sensitivity = sort_margins(&all.sensitivities, std::greater<>());
   margins->complementary = sort_margins(&all.complementaries, std::greater<>());
   margins->rest = rest_of(complementary, grid_);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "linear/flowing_loop.h"
 #include "linear/periodic_derivatives.h"
@@ -121,6 +122,17 @@ double peak_derivative(const Loop& loop, const AtFrequency& peak, double shift, 
   }
   const ComplexNumber all = shift + H.value;
   return (std::conj(all) * H.change).real() / std::abs(all);
+}
+
+/// The derivative of a margin at infinite frequency; none: it is at another one.
+std::optional<double> far_derivative(const AtFrequency& margin, Kind kind,
+                                     const ComplexNumber& direct) {
+  constexpr double kSame = 1e-12;
+  if (kind == Kind::kDelayMargin && margin.value == 0.0) return 0.0;
+  if (kind != Kind::kGainMargin && kind != Kind::kGainReduction) return {};
+  const double D = direct.real(), dD = direct.imag() / LinearDerivatives::kStep;
+  if (!(std::abs(margin.value - (1.0 + 1.0 / D)) <= kSame * margin.value)) return {};
+  return -dD / (D * D);
 }
 
 double lower_damping(const ComplexNumber& s) {
@@ -299,7 +311,10 @@ std::vector<AtFrequency> margins_of(const LoopMargins& margins, Kind kind) {
 
 double derivative_of(const AtFrequency& margin, Kind kind, double rest, const ComplexSpace& closed,
                      double period) {
-  if (!closed.pieces.order.empty()) return FlowingLoop(closed).derivative_of(margin, kind, rest);
+  const bool has_pieces = !closed.pieces.order.empty();
+  if (has_pieces || period == 0.0)
+    if (const auto far = far_derivative(margin, kind, closed.D(0, 0))) return *far;
+  if (has_pieces) return FlowingLoop(closed).derivative_of(margin, kind, rest);
   if (closed.B.cols() > 1) return periodic_derivative_of(margin, kind, rest, closed, period);
   const Loop loop(closed, period);
   switch (kind) {

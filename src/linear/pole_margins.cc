@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "linear/frequency_search.h"
@@ -17,6 +18,7 @@ using Kind = LinearMeasure::Kind;
 
 constexpr double kOutside = 1e-6;  // beyond the unit circle, more than rounding
 constexpr double kMostGain = 1e9;  // a larger factor counts as none
+constexpr int kOverflow = -1;
 
 /// What a factor is of: the logarithm of a gain, or a lag in rad.
 enum class Along { kGain, kLag };
@@ -39,17 +41,19 @@ class CrossingSearch {
 
  private:
   int unstable_with(Complex factor) const;
+  std::optional<Crossing> through_infinity(double last) const;
   Crossing crossing_between(Along along, double low, double high) const;
-  std::vector<Crossing> crossings(Along along, double first, double last, int steps) const;
+  std::vector<Crossing> crossings(Along along, double last, int steps) const;
 
   const FactoredLoop& loop_;
   LoopMargins* margins_;
   const bool is_stable_;
 };
 
+/// @returns a number of poles; kOverflow: some grow beyond all numbers.
 int CrossingSearch::unstable_with(Complex factor) const {
   const MatrixXcd map = loop_.closed_by(factor);
-  if (!map.allFinite()) return -1;
+  if (!map.allFinite()) return kOverflow;
   const Eigen::VectorXcd values = complex_eigenvalues(map);
   return static_cast<int>((values.array().abs() > 1.0 + kOutside).count());
 }
@@ -68,9 +72,10 @@ Crossing CrossingSearch::crossing_between(Along along, double low, double high) 
   for (int k = 0; k < kCorrections; ++k) {
     const Complex factor = factor_at(along, found.place);
     const Complex turn = along == Along::kLag ? Complex(0.0, -1.0) * factor : factor;
-    const MatrixXcd by_place = turn * loop_.by_factor(factor);
+    const MatrixXcd map = loop_.closed_by(factor), by_place = turn * loop_.by_factor(factor);
+    if (!map.allFinite() || !by_place.allFinite()) break;
     double fastest = 0.0, step = 0.0;
-    for (const EigenTriple& pole : complex_eigen(loop_.closed_by(factor))) {
+    for (const EigenTriple& pole : complex_eigen(map)) {
       const double beside = std::log(std::abs(pole.value));
       if (!(std::abs(beside) < kBeside)) continue;
       const Complex moves = product(pole.left.transpose(), product(by_place, pole.right))(0, 0);
@@ -87,22 +92,48 @@ Crossing CrossingSearch::crossing_between(Along along, double low, double high) 
   return found;
 }
 
-std::vector<Crossing> CrossingSearch::crossings(Along along, double first, double last,
-                                                int steps) const {
+/// The gain on the way to the last one at which a pole passes through infinity.
+std::optional<Crossing> CrossingSearch::through_infinity(double last) const {
+  const AtFrequency L = loop_.at_infinity();
+  if (!(L.value < 0.0)) return {};
+  const double place = std::log(-1.0 / L.value);
+  if (!(place / last > 0.0 && place / last < 1.0)) return {};
+  return Crossing{place, L.frequency};
+}
+
+std::vector<Crossing> CrossingSearch::crossings(Along along, double last, int steps) const {
+  constexpr double kBeside = 1e-5;  // of infinity, where poles are too large for numbers
   std::vector<Crossing> found;
-  double place = first;
-  int count = unstable_with(factor_at(along, first));
-  for (int k = 1; k <= steps; ++k) {
-    const double next = first + (last - first) * k / steps;
-    const int there = unstable_with(factor_at(along, next));
-    if (there < 0) break;
-    if (there != count) {
-      found.push_back(crossing_between(along, place, next));
-      // Of gains the first one counts, of an unstable loop the one that leaves nothing outside.
-      if (along == Along::kGain && (is_stable_ || there == 0)) break;
-    }
+  double place = 0.0;
+  int count = unstable_with(factor_at(along, place));
+  // Of gains the first one counts, of an unstable loop the one that leaves nothing outside.
+  const auto is_last = [&](int there) {
+    return along == Along::kGain && (is_stable_ || there == 0);
+  };
+  const auto ends_at = [&](double next) {
+    const int before = count;
+    count = unstable_with(factor_at(along, next));
+    // What overflows is unstable, by an unknown number of poles.
+    const bool is_crossing =
+        count != before && (std::min(count, before) >= 0 || std::max(count, before) == 0);
+    if (is_crossing) found.push_back(crossing_between(along, place, next));
     place = next;
-    count = there;
+    return is_crossing && is_last(count);
+  };
+  const auto is_between = [&place](double at, double next) {
+    return std::abs(at) > std::abs(place) && std::abs(at) <= std::abs(next);
+  };
+  const auto infinite = along == Along::kGain ? through_infinity(last) : std::nullopt;
+  for (int k = 1; k <= steps; ++k) {
+    const double next = last * k / steps;
+    if (infinite && is_between(infinite->place, next)) {
+      if (ends_at(infinite->place * (1.0 - kBeside))) break;
+      found.push_back(*infinite);
+      place = infinite->place * (1.0 + kBeside);
+      count = unstable_with(factor_at(along, place));
+      if (is_last(count)) break;
+    }
+    if (std::abs(next) > std::abs(place) && ends_at(next)) break;
   }
   return found;
 }
@@ -111,7 +142,7 @@ void CrossingSearch::find_gains() {
   constexpr int kSteps = 700;  // 3 % each
   const double most = std::log(kMostGain);
   const auto take = [&](double last, std::vector<AtFrequency>* all) {
-    for (const Crossing& crossing : crossings(Along::kGain, 0.0, last, kSteps))
+    for (const Crossing& crossing : crossings(Along::kGain, last, kSteps))
       all->push_back({std::exp(crossing.place), std::abs(crossing.frequency)});
   };
   if (is_stable_) take(most, &margins_->all.gains);
@@ -132,13 +163,15 @@ void CrossingSearch::find_gains() {
 // A lag of a positive frequency is a lead of the negative one.
 void CrossingSearch::find_lags() {
   constexpr int kSteps = 720;  // a quarter of a degree each
-  for (const Crossing& crossing : crossings(Along::kLag, 0.0, kHalfTurn, kSteps)) {
+  for (const Crossing& crossing : crossings(Along::kLag, kHalfTurn, kSteps)) {
     const double frequency = std::abs(crossing.frequency);
     margins_->all.phases.push_back({crossing.place, frequency});
     const double lag =
         crossing.frequency >= 0.0 ? crossing.place : 2.0 * kHalfTurn - crossing.place;
     if (frequency > 0.0) margins_->all.delays.push_back({lag / frequency, frequency});
   }
+  if (const AtFrequency L = loop_.at_infinity(); std::abs(L.value) > 1.0)
+    margins_->all.delays.push_back({0.0, L.frequency});
   margins_->phase_margin = sort_margins(&margins_->all.phases, std::less<>());
   margins_->delay_margin = sort_margins(&margins_->all.delays, std::less<>());
 }

@@ -28,11 +28,16 @@ class FactoredLoop {
   /// The frequency [rad/s] of the largest of the sinusoids, a turn per period apart, that are the
   /// output in a motion of closed_by(factor); negative if it turns backwards.
   virtual double frequency_of(std::complex<double> factor, const EigenTriple& pole) const = 0;
+  /// L of infinitely fast signals, and the frequency [rad/s] that stands for theirs; 0: none reach
+  /// the output at once.
+  virtual AtFrequency at_infinity() const { return {}; }
 };
 
 /// Sets gain, phase and delay margins by poles, theory (69a): factors gain or exp(-j phase) at
 /// which an eigenvalue of the map over a period has the size 1; a delay margin is the phase up to
-/// it by its frequency.
+/// it by its frequency. Where L of infinitely fast signals is between -1 and 0 a pole passes
+/// through infinity at the gain that makes it -1; where it exceeds 1 any delay makes the loop
+/// unstable.
 /// @param margins with `is_stable`: of an unstable loop there is only a reduction, if one helps.
 void find_pole_margins(const FactoredLoop& loop, LoopMargins* margins);
 

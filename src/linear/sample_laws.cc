@@ -149,6 +149,13 @@ struct SampleLaws::Law {
       }
     filtered.resize(chains.size());
   }
+  /// Of the whole system the rate of the same kind; -1: of a filtered input.
+  int column_of(int column) const {
+    const int first = system.layout().columns() - system.layout().states;
+    if (column < first) return column;
+    const int known = states[to_index(column - first)];
+    return known < 0 ? -1 : first + known;
+  }
 };
 
 SampleLaws::SampleLaws(const CompiledSystem& system, const LinearStudy& study)
@@ -171,6 +178,8 @@ void SampleLaws::load(int controller, const ComplexMotion& motion) {
   for (std::size_t k = 0; k < law.states.size(); ++k)
     if (law.states[k] >= 0) law.state.s[to_signed(k)] = motion.state.s[law.states[k]];
   law.state.z.setZero(layout.columns());
+  for (int k = 0; k < layout.columns(); ++k)
+    if (const int column = law.column_of(k); column >= 0) law.state.z[k] = motion.state.z[column];
   law.equations.set_design(motion.parameters);
   for (std::size_t k = 0; k < law.states.size(); ++k)
     if (law.inputs[k] >= 0)
@@ -198,6 +207,10 @@ Eigen::RowVectorXcd SampleLaws::row_of(int controller, std::size_t watched,
       row += entry.value * s.row(law.states[state]);
   }
   for (const auto& entry : law.gradient.velocity) row += entry.value * motion.v.row(entry.column);
+  // Only outputs of continuous controllers let a law read rates.
+  for (const auto& entry : law.gradient.rate)
+    if (const int column = law.column_of(entry.column); column >= 0)
+      row += entry.value * motion.z.row(column);
   return row;
 }
 

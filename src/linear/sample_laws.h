@@ -14,12 +14,12 @@
 
 namespace codesign {
 
-/// How the directions of x = (y, y', s) move coordinates, rates and extra states about a state, and
+/// How the directions of x = (y, y', s) move coordinates, velocities and rates about a state, and
 /// the state itself; imaginary parts are derivatives along a direction of the design.
 struct ComplexMotion {
   State<std::complex<double>> state;
   std::vector<std::complex<double>> parameters;
-  Eigen::MatrixXcd q, v;  ///< one column per entry of x
+  Eigen::MatrixXcd q, v, z;  ///< one column per entry of x; z the rates, as of Layout::columns()
   Eigen::Index motions = 0;
 };
 

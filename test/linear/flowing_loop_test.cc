@@ -18,10 +18,10 @@ using Kind = LinearMeasure::Kind;
 
 /// Compares the margins of a cart's loop with those that it has beside a cart whose sampled loop it
 /// does not know. @returns how many there are.
-int compare_with_alone(const std::string& servo) {
-  const ControllerLoop alone = model_of(carts(1, {damped(1.0)}), controlled(servo)).loops.at(0);
+int compare_with_alone(const std::string& servo, double damping = 1.0) {
+  const ControllerLoop alone = model_of(carts(1, {damped(damping)}), controlled(servo)).loops.at(0);
   const ControllerLoop beside =
-      model_of(carts(2, {damped(1.0), damped(2.0)}),
+      model_of(carts(2, {damped(damping), damped(2.0)}),
                controlled(servo + ", " +
                           cart_servo("gains: {p: 0.5}, sample_time: 0.5, delay: 0.2", "1")))
           .loops.at(0);
@@ -51,6 +51,56 @@ TEST(FlowingLoop, OfALoopThatSamplesDoNotTouchIsItsTransferFunction) {
   EXPECT_EQ(compare_with_alone("servo0: {type: pid, input: \"${x0/position + 0.1*x0/velocity + "
                                "0.01*x0/acceleration}\", setpoint: 0, output: x0, gains: {p: 40}}"),
             5);
+  EXPECT_EQ(compare_with_alone("servo0: {type: pid, input: \"${0.05*x0/velocity - "
+                               "0.5*x0/acceleration}\", setpoint: 0, output: x0, gains: {p: 1}}",
+                               40.0),
+            3);
+}
+
+/// C/(s - A) + D over a period of 1 s at whose instants nothing happens.
+ComplexSpace first_order(double A, std::complex<double> C, std::complex<double> D) {
+  const auto one = [](std::complex<double> value) {
+    return Eigen::MatrixXcd::Constant(1, 1, value);
+  };
+  return {one(A), one(1.0), one(C), one(D), {{{Eigen::MatrixXcd::Identity(1, 2), 1.0}}, {0}}};
+}
+
+// As LoopMargins.OfAnOutputThatDependsOnItselfAtOnce; d(1 + 1/D) = -dD/D^2.
+TEST(FlowingLoop, OfAnOutputThatDependsOnItselfAtOnce) {
+  const std::complex<double> step(0.0, ComplexSpace::kStep);
+  const LoopMargins below = FlowingLoop(first_order(-8.0, -14.0, 1.0)).margins();
+  ASSERT_TRUE(below.is_stable && below.gain_margin && below.delay_margin);
+  EXPECT_NEAR(below.gain_margin->value, 2.0, 1e-12);
+  EXPECT_GT(below.gain_margin->frequency, 1e3);
+  EXPECT_FALSE(below.gain_reduction);
+  EXPECT_GT(below.delay_margin->value, 0.0);
+  const LoopMargins beyond = FlowingLoop(first_order(-4.0, 6.0, -3.0)).margins();
+  ASSERT_TRUE(beyond.is_stable && beyond.gain_reduction && beyond.delay_margin);
+  EXPECT_NEAR(beyond.gain_reduction->value, 2.0 / 3.0, 1e-12);
+  EXPECT_EQ(beyond.delay_margin->value, 0.0);
+  const LoopMargins unstable = FlowingLoop(first_order(20.0, -42.0, -3.0)).margins();
+  ASSERT_TRUE(unstable.gain_reduction);
+  EXPECT_FALSE(unstable.is_stable || unstable.delay_margin);
+  EXPECT_NEAR(unstable.gain_reduction->value, 2.0 / 3.0, 1e-12);
+  for (const double period : {0.0, 1.0}) {
+    ComplexSpace moving = first_order(-4.0, 6.0 + 5.0 * step, -3.0 + 2.0 * step);
+    if (period == 0.0) moving.pieces = {};
+    EXPECT_NEAR(derivative_of(*beyond.gain_reduction, Kind::kGainReduction, 0.0, moving, period),
+                -2.0 / 9.0, 1e-14);
+    EXPECT_EQ(derivative_of(*beyond.delay_margin, Kind::kDelayMargin, 0.0, moving, period), 0.0);
+  }
+}
+
+// S = 1, T = 0: no peak of rounding.
+TEST(FlowingLoop, WithoutGains) {
+  ComplexSpace cart = damped_cart();
+  cart.C.setZero();
+  cart.A.row(2).setZero();
+  cart.A(2, 2) = -20.0;
+  const LoopMargins margins = FlowingLoop(cart).margins();
+  EXPECT_EQ(margins.sensitivity->value, 1.0);
+  EXPECT_EQ(margins.complementary->value, 0.0);
+  EXPECT_FALSE(margins.gain_margin || margins.phase_margin || margins.bandwidth);
 }
 
 // The figures of scipy: expm, eigvals and brentq for factors on the unit circle and the real axis;
@@ -63,6 +113,7 @@ TEST(FlowingLoop, OfADampedCart) {
   EXPECT_FALSE(margins.gain_reduction);
   EXPECT_NEAR(margins.phase_margin->value, 1.365918619018097, 1e-10);
   EXPECT_NEAR(margins.phase_margin->frequency, 3.1866797516609333, 1e-9);
+  EXPECT_NEAR(margins.delay_margin->value, 0.4286337898579751, 1e-10);
   EXPECT_NEAR(margins.sensitivity->value, 1.32442017, 1e-7);
   EXPECT_NEAR(margins.complementary->value, 1.00092168, 1e-7);
   EXPECT_NEAR(margins.bandwidth->value, 4.3840334, 1e-4);

@@ -95,6 +95,27 @@ TEST(LinearDerivatives, ThroughAPostureThatMoves) {
   }
 }
 
+// A sample reads an acceleration through a continuous controller.
+TEST(LinearDerivatives, OfASampleThatReadsAnAcceleration) {
+  RestCase of(loaded(
+      carts(2, {damped(1.0), sprung(3.0, 0.5)}, true),
+      "parameters:\n" + one_tuned("p", 30.0) +
+          controlled("servo: {type: pid, input: \"${x0/position + 0.1*x0/velocity + "
+                     "0.01*x0/acceleration}\", setpoint: 0, output: x0, gains: {p: \"${p}\"}}, "
+                     "follow: {type: pid, input: servo/output, setpoint: 0, output: x1, gains: {p: "
+                     "0.1}, sample_time: 0.1}")));
+  const Eigen::MatrixXd exact = of.change(0);
+  for (Eigen::Index row = 0; row < exact.rows(); ++row)
+    for (Eigen::Index column = 0; column < exact.cols(); ++column) {
+      const RiddersDerivative reference = ridders_derivative(
+          [&](double step) { return of.rest_at({30.0 + step}).linear.system.A(row, column); }, 0.0,
+          0.5);
+      EXPECT_NEAR(exact(row, column), reference.value,
+                  1e-7 * exact.cwiseAbs().maxCoeff() + 10.0 * reference.error)
+          << row << column;
+    }
+}
+
 // Where a cart stands that only a speed loop holds.
 TEST(LinearDerivatives, NamesTheDirectionsThatNothingDetermines) {
   RestCase of(

@@ -101,6 +101,39 @@ TEST(LoopMargins, AnUnstableLoopHasNothingToSpare) {
   EXPECT_FALSE(OpenLoop(closed_loop({0.5}, {-1.0})).margins().gain_reduction);
 }
 
+/// From w to C/(s - A) w + D w.
+StateSpace first_order(double A, double C, double D) {
+  const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
+  StateSpace system;
+  system.A = one(A);
+  system.B = one(1.0);
+  system.C = one(C);
+  system.D = one(D);
+  return system;
+}
+
+// (-s/2 + 3)/(s + 1) has 1 + k L = ((1 - k/2) s + 1 + 3 k)/(s + 1): a limit at infinite frequency.
+// (-3/2 s - 3)/(s + 1) may fall to 2/3, (-3/2 s + 9)/(s + 1) has to, (2 s + 3)/(s + 1) has none.
+TEST(LoopMargins, OfAnOutputThatDependsOnItselfAtOnce) {
+  const LoopMargins below = OpenLoop(first_order(-8.0, -14.0, 1.0)).margins();
+  EXPECT_TRUE(below.is_stable);
+  EXPECT_NEAR(below.gain_margin->value, 2.0, 1e-14);
+  EXPECT_NEAR(below.sensitivity->value, 2.0, 1e-14) << "1 + D";
+  EXPECT_FALSE(below.gain_reduction);
+  EXPECT_GT(below.delay_margin->value, 0.0);
+  const LoopMargins beyond = OpenLoop(first_order(-4.0, 6.0, -3.0)).margins();
+  EXPECT_TRUE(beyond.is_stable);
+  EXPECT_NEAR(beyond.complementary->value, 3.0, 1e-14) << "|D|";
+  EXPECT_NEAR(beyond.gain_reduction->value, 2.0 / 3.0, 1e-14);
+  EXPECT_EQ(beyond.delay_margin->value, 0.0) << "fast signals grow with any delay";
+  const LoopMargins unstable = OpenLoop(first_order(20.0, -42.0, -3.0)).margins();
+  EXPECT_FALSE(unstable.is_stable || unstable.delay_margin);
+  EXPECT_NEAR(unstable.gain_reduction->value, 2.0 / 3.0, 1e-14);
+  const LoopMargins none = OpenLoop(first_order(-4.0 / 3.0, -1.0 / 9.0, -2.0 / 3.0)).margins();
+  EXPECT_FALSE(none.gain_margin || none.gain_reduction || none.phase_margin);
+  EXPECT_EQ(none.delay_margin->value, 0.0);
+}
+
 TEST(LoopMargins, OfASampledIntegrator) {
   // k/(z - 1): |L| = 1 at 2 sin(w T/2) = k; L(-1) = -k/2.
   const double period = 0.1, k = 0.5;

@@ -52,6 +52,29 @@ TEST(PoleMargins, OfOneState) {
   EXPECT_NEAR(margins.delay_margin->value, lag * kStride / turn, 1e-9);
 }
 
+// The pole of the other sign moves backwards with a lag: the limit is a lead, and a lag of the rest
+// of a turn.
+TEST(PoleMargins, OfALead) {
+  const LoopMargins margins = margins_with({-1.2, -0.9}, true);
+  const double turn = kHalfTurn - std::acos((1.0 + 1.44 - 0.81) / 2.4);
+  const double lead = std::acos((1.44 + 0.81 - 1.0) / (2.0 * 1.2 * 0.9));
+  ASSERT_EQ(margins.all.phases.size(), 1U);
+  EXPECT_NEAR(margins.phase_margin->value, lead, 1e-12);
+  EXPECT_NEAR(margins.phase_margin->frequency, turn / kStride, 1e-9);
+  EXPECT_NEAR(margins.delay_margin->value, (2.0 * kHalfTurn - lead) * kStride / turn, 1e-9);
+  // 2 pole gain cos(lead) = pole^2 + gain^2 - 1, both sizes moved along with their signs.
+  const double by_pole = 0.7, by_gain = -0.4;
+  const MovedBy moved = [&](Complex factor) {
+    return Eigen::MatrixXcd::Constant(1, 1, by_pole - factor * by_gain);
+  };
+  const double a = -1.2, g = -0.9, b = a * a + g * g - 1.0, product = a * by_gain + g * by_pole;
+  const double by_cosine =
+      (a * by_pole + g * by_gain) / (a * g) - 0.5 * b * product / (a * a * g * g);
+  EXPECT_NEAR(pole_margin_derivative(ScalarLoop(-1.2, -0.9), moved, kStride, *margins.phase_margin,
+                                     Kind::kPhaseMargin),
+              -by_cosine / std::sin(lead), 1e-10);
+}
+
 TEST(PoleMargins, OfAnUnstableLoopOnlyAReductionThatHelps) {
   const LoopMargins beyond = margins_with({0.5, 2.0}, false);
   EXPECT_NEAR(beyond.gain_reduction->value, 0.75, 1e-12);

@@ -33,6 +33,8 @@ void expect_jumps_of_runs(const std::string& controllers) {
   moves.v = Eigen::MatrixXcd::Zero(system.layout().n, x);
   moves.q.leftCols(f) = motion.coordinates().Q.cast<std::complex<double>>();
   moves.v.middleCols(f, f) = moves.q.leftCols(f);
+  // No constraints: the rates are those of y' and of s.
+  moves.z = motion.flow().A.leftCols(x).bottomRows(x - f).cast<std::complex<double>>();
   SampleLaws laws(system, study);
   std::vector<ControlEvent> events;
   for (std::size_t c = 0; c < of.controllers().size(); ++c)
@@ -76,6 +78,15 @@ TEST(SampleLaws, OfLawsThatReadEachOther) {
       "0.02}, smooth: {type: state_feedback, sample_time: 0.02, feedback: [{signal: x0/velocity, "
       "gain: -1, filter: {type: low_pass, frequency: 4}}]}, inner: {type: pid, input: "
       "smooth/output - outer/output, setpoint: 0, output: x0, gains: {p: 8}, sample_time: 0.01}");
+}
+
+// Through a continuous controller an acceleration reaches a sample.
+TEST(SampleLaws, OfALawThatReadsAnAcceleration) {
+  expect_jumps_of_runs(
+      "servo: {type: pid, input: \"${x0/position + 0.1*x0/velocity + 0.01*x0/acceleration}\", "
+      "setpoint: 0, output: x0, gains: {p: 30}}, follow: {type: pid, input: servo/output, "
+      "setpoint: 0, output: x1, gains: {p: 0.1}, sample_time: 0.1, filter: {type: low_pass, "
+      "frequency: 3}}");
 }
 
 }  // namespace
