@@ -163,6 +163,12 @@ void add_numbers(const Problem& problem, const IdentificationResult& result, Jso
   to["correlation"] = rows_json(correlation_of(result.covariance));
 }
 
+bool has_rest_bounds(const IdentificationDescription& of) {
+  return std::any_of(of.data.begin(), of.data.end(), [](const RecordingDescription& recording) {
+    return recording.rest == RestRule::kBounds;
+  });
+}
+
 }  // namespace
 
 Json identification_json(const Problem& problem, const IdentificationResult& result) {
@@ -171,6 +177,7 @@ Json identification_json(const Problem& problem, const IdentificationResult& res
   object["parameters"] = parameters_json(problem, result.parameters);
   if (!result.numbers.empty()) add_numbers(problem, result, &object);
   object["loss"] = study_of(problem).identification->loss.kind->name;
+  if (has_rest_bounds(*study_of(problem).identification)) object["rest_bounds"] = true;
   object["inflation"] = result.inflation;
   if (!result.data.empty()) object["data"] = outputs_json(result.data, result.samples);
   if (!result.searches.starts.empty())

@@ -87,6 +87,7 @@ JudgedModel read_judged_model(const SourceText& json) {
     model.rank = root.value("rank", 0);
     model.inflation = root.at("inflation").get<double>();
     model.is_squares = root.at("loss") == "square";
+    model.has_rest_bounds = root.value("rest_bounds", false);
     model.data = outputs_of(root, "data");
     model.holdout = outputs_of(root, "holdout");
     if (!model.data.empty()) model.samples = root.at("data").at("samples").get<std::int64_t>();

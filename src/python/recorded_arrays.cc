@@ -66,6 +66,12 @@ RecordedArrays arrays_of(const py::tuple& recording) {
                       "no rule for samples at rest",
                       rest,
                       std::string(kRestRuleNames[0]) + ", " + kRestRuleNames[1]});
+  if (arrays.rest == RestRule::kBounds && arrays.masks.empty())
+    throw InputError({{"arrays", 0},
+                      arrays.element + ".rest",
+                      "without a mask no sample is at rest",
+                      kRestRuleNames[1],
+                      "mask=SPEED beside it"});
   for (const auto& [joint, position] : to_settings(recording[6].cast<py::dict>())) {
     StartPosition start{joint, FittedNumber(position)};
     start.position.where = {"arrays", 0};

@@ -11,8 +11,9 @@
 namespace codesign {
 namespace {
 
-SourceText judged(const std::string& name, const std::string& more, bool is_fitted) {
-  const Problem problem = swinging_problem("{csv: data.csv}", more);
+SourceText judged(const std::string& name, const std::string& more, bool is_fitted,
+                  const std::string& data = "{csv: data.csv}") {
+  const Problem problem = swinging_problem(data, more);
   SwingingRig rig;
   rig.offset = 0.2;
   StudyRecordings recordings;
@@ -54,6 +55,13 @@ TEST(JudgedFits, RefusalsAreTold) {
                                           judged("b.json", "  loss: {type: huber}\n", true));
   EXPECT_FALSE(comparison.contains("criterion"));
   EXPECT_NE(comparison_sentences(comparison).back().find("robust"), std::string::npos);
+}
+
+TEST(JudgedFits, BoundsAtRestAreKnownFromTheFile) {
+  const std::string bounds = "{csv: data.csv, mask: {speed: 0.01, rest: bounds}}",
+                    left_out = "{csv: data.csv, mask: {speed: 0.01}}";
+  EXPECT_TRUE(read_judged_model(judged("a.json", "", true, bounds)).has_rest_bounds);
+  EXPECT_FALSE(read_judged_model(judged("b.json", "", true, left_out)).has_rest_bounds);
 }
 
 TEST(JudgedFits, OtherFilesAreRefusedByName) {

@@ -87,6 +87,8 @@ class Recordings(unittest.TestCase):
         self.assertLess(right.record["data"]["joints"]["shoulder"]["counted"], 0.95)
         wrong = problem.identify(codesign.Recording(t, q, np.where(slow, effort + 3.0, effort), mask=0.25, rest="bounds"))
         self.assertGreater(abs(wrong.numbers["mass"].value - 2.0), 0.01)
+        with self.assertRaisesRegex(codesign.InputError, r"arrays\.rest: without a mask"):
+            problem.identify(codesign.Recording(t, q, effort, rest="bounds"))
         with self.assertRaisesRegex(codesign.InputError, "leave_out, bounds"):
             problem.identify(codesign.Recording(t, q, effort, mask=0.25, rest="bound"))
 

@@ -32,6 +32,7 @@ std::string refusal_of(const JudgedModel& other, const JudgedModel& here) {
   if (!has_same_data(other, here)) return "the two were judged on different data";
   if (!other.is_squares || !here.is_squares)
     return "a robust loss is no likelihood; loss: square is";
+  if (other.has_rest_bounds || here.has_rest_bounds) return "rest: bounds has no likelihood";
   if (is_exact(other) || is_exact(here)) return "residuals are zero";
   return "";
 }

@@ -21,7 +21,9 @@ struct JudgedModel {
   int rank = 0;                      ///< how many of them, or of their combinations, are known
   double inflation = 1.0;            ///< IdentificationResult::inflation
   bool is_squares = true;            ///< whether the loss is a sum of squares, thus a likelihood
-  std::int64_t samples = 0;          ///< times in the data
+  /// whether samples at rest count by bounds: their residuals are no part of the root mean squares
+  bool has_rest_bounds = false;
+  std::int64_t samples = 0;  ///< times in the data
   std::vector<JudgedOutput> data, holdout;
 };
 
@@ -35,7 +37,8 @@ struct JudgedModel {
 /// among those of the other) D = 2 (ln L_large - ln L_small) / c is chi-squared with the difference
 /// of the ranks as degrees of freedom, if the further numbers are not needed.
 struct ModelComparison {
-  /// why there is no criterion: other data, a robust loss, residuals that are zero; else empty
+  /// why there is no criterion: other data, a robust loss, bounds at rest, residuals that are zero;
+  /// else empty
   std::string refusal;
   double inflation = 1.0;       ///< c
   double criterion = 0.0;       ///< QAIC here minus QAIC of the other; negative: here is better

@@ -29,10 +29,9 @@ void require_shape(const MotionSamples& motion, std::size_t joints) {
     if (part->rows() != to_signed(joints) || part->cols() != motion.position.cols())
       throw std::invalid_argument(
           "a measured motion needs one row per joint and one column per sample");
-  if (!motion.times.empty() && to_signed(motion.times.size()) != motion.position.cols())
-    throw std::invalid_argument("a measured motion needs one time per sample");
-  if (!motion.numbers.empty() && to_signed(motion.numbers.size()) != motion.position.cols())
-    throw std::invalid_argument("a measured motion needs one number per sample");
+  for (const std::size_t given : {motion.times.size(), motion.numbers.size()})
+    if (given > 0 && to_signed(given) != motion.position.cols())
+      throw std::invalid_argument("a measured motion needs one time per sample");
   if (motion.begins.empty() || motion.begins.front() != 0 ||
       !std::is_sorted(motion.begins.begin(), motion.begins.end()))
     throw std::invalid_argument("the first samples of the recordings begin with 0 and ascend");

@@ -139,11 +139,8 @@ void EffortResiduals::refuse_bounds_of_projected() const {
     for (const JointMotion& motion : recording.joints)
       if (motion.has_bounds && motion.least_speed > 0.0)
         throw InputError({recording.where, recording.element + ".mask.rest",
-                          "more joints are measured than there are degrees of freedom, whose "
-                          "motion together has no joint just move",
-                          "bounds",
-                          "rest: leave_out, or recordings without the positions and velocities of "
-                          "dependent joints"});
+                          "with more joints than degrees of freedom none just moves alone",
+                          "bounds", "rest: leave_out, or recordings of independent joints"});
 }
 
 std::vector<double> EffortResiduals::times() const {

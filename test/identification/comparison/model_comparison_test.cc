@@ -60,6 +60,10 @@ TEST(ModelComparison, IsRefusedWhereThereIsNoLikelihood) {
   other.data[1].recorded = 3.1;
   EXPECT_EQ(compare_models(right, other).refusal, "the two were judged on different data");
   other = right;
+  other.has_rest_bounds = true;
+  EXPECT_NE(compare_models(other, right).refusal.find("bounds"), std::string::npos);
+  EXPECT_NE(compare_models(right, other).refusal.find("bounds"), std::string::npos);
+  other = right;
   other.is_squares = false;
   EXPECT_NE(compare_models(other, right).refusal, "");
   other = right;
