@@ -106,7 +106,8 @@ double peak_derivative(const Loop& loop, const AtFrequency& peak, double shift, 
   constexpr double kNear = 1e-3;  // beyond this part of the frequency it is another extremum
   Response H = loop.at(peak.frequency);
   const Response far = loop.at_infinity();
-  if (period == 0.0 && std::abs(shift + far.value) >= (1.0 - 1e-14) * peak.value) {
+  constexpr double kSame = 1e-14;
+  if (period == 0.0 && std::abs(std::abs(shift + far.value) - peak.value) <= kSame * peak.value) {
     H = far;
   } else {
     double w = peak.frequency;

@@ -107,6 +107,25 @@ TEST(MeasureDerivatives, RankThePolesThatDecide) {
   EXPECT_NEAR(damping[2], 1.0, 1e-12) << "the pole at zero does not count";
 }
 
+// 0.2/(s^2 + 0.2 s + 1) peaks at 1/sqrt(0.99), below the 3 of 3 s/(s + 1e6).
+TEST(MeasureDerivatives, OfAPeakBelowThatOfFastSignals) {
+  ComplexSpace closed;
+  closed.A = Eigen::MatrixXcd::Zero(3, 3);
+  closed.A.topLeftCorner(2, 2) << 0.0, 1.0, -1.0, -0.2;
+  closed.A(2, 2) = -1e6;
+  closed.B = Eigen::Vector3cd(0.0, 1.0, 1.0);
+  closed.C = Eigen::RowVector3cd(std::complex<double>(0.2, ComplexSpace::kStep), 0.0, -3e6);
+  closed.D = Eigen::MatrixXcd::Constant(1, 1, 3.0);
+  const double peak = 1.0 / std::sqrt(0.99);
+  EXPECT_NEAR(
+      derivative_of({peak, std::sqrt(0.98)}, Kind::kComplementarySensitivity, 0.0, closed, 0.0),
+      peak / 0.2, 1e-4);
+  closed.C.imag() *= 0.0;
+  closed.D(0, 0) = std::complex<double>(3.0, ComplexSpace::kStep);
+  EXPECT_NEAR(derivative_of({3.0, 1e9}, Kind::kComplementarySensitivity, 0.0, closed, 0.0), 1.0,
+              1e-14);
+}
+
 // z = 1 - k T: s = ln z/T, radius |z|.
 TEST(MeasureDerivatives, OfASampledPole) {
   const Eigen::MatrixXd A = Eigen::MatrixXd::Constant(1, 1, 0.8),
