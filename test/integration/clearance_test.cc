@@ -8,40 +8,28 @@
 #include "integration/energy_balance.h"
 #include "integration/mechanisms.h"
 #include "integration/playing.h"
-#include "mechanism_codesign/simulation.h"
+#include "integration/signals_at.h"
 
 namespace codesign {
 namespace {
 
 constexpr double kEarthGravity = 9.81;
 
-/// The signals of a run at one instant.
-std::vector<double> at(const Problem& problem, double time,
-                       const std::vector<std::string>& signals) {
-  Simulation simulation(problem, problem.parameters(), signals);
-  EXPECT_TRUE(simulation.start().ok());
-  const Status status = simulation.advance_to(time);
-  EXPECT_TRUE(status.ok()) << status.cause;
-  Frame frame;
-  simulation.sample(time, &frame);
-  return frame.signals;
-}
-
 TEST(Clearance, StartsAsTheIdealJoint) {
   const std::vector<std::string> signals = {"turn/position", "elbow/position", "slider/position/x",
                                             "turn/velocity", "elbow/velocity", "slider/velocity/x"};
   const std::vector<double> ideal =
-      at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.0, signals);
+      signals_at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.0, signals);
   for (const bool in_loop : {true, false}) {
     const Problem problem = playing_problem(
         in_loop ? playing_slider_crank("", kPlayingPin) : playing_slider_crank(kPlayingPin, ""),
         playing_study(""));
-    const std::vector<double> start = at(problem, 0.0, signals);
+    const std::vector<double> start = signals_at(problem, 0.0, signals);
     for (std::size_t k = 0; k < signals.size(); ++k)
       EXPECT_NEAR(start[k], ideal[k], 1e-12 * (1.0 + std::abs(ideal[k]))) << signals[k];
     const std::string name = in_loop ? "pin" : "elbow";
-    const std::vector<double> journal =
-        at(problem, 0.0, {name + "_clearance/gap", name + "_x/position", name + "_y/velocity"});
+    const std::vector<double> journal = signals_at(
+        problem, 0.0, {name + "_clearance/gap", name + "_x/position", name + "_y/velocity"});
     EXPECT_NEAR(journal[0], 5e-4, 2e-12);
     EXPECT_NEAR(journal[1], 0.0, 1e-15);
     EXPECT_NEAR(journal[2], 0.0, 1e-12);
@@ -52,8 +40,9 @@ TEST(Clearance, OfPlainZeroIsTheIdealJoint) {
   const char* const none = "<codesign:clearance radial='0'/>";
   const std::vector<std::string> signals = {"turn/position", "slider/position/x"};
   EXPECT_EQ(
-      at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.03, signals),
-      at(playing_problem(playing_slider_crank(none, none), playing_study("")), 0.03, signals));
+      signals_at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.03, signals),
+      signals_at(playing_problem(playing_slider_crank(none, none), playing_study("")), 0.03,
+                 signals));
 }
 
 // A smaller clearance in a stiffer bearing, whose rattle friction ends, moves like the ideal joint.
@@ -62,9 +51,10 @@ TEST(Clearance, TendsToTheIdealJoint) {
     const std::string play = "<codesign:clearance radial='" + c + "' radius='0.01' stiffness='" +
                              stiffness + "' dissipation='20'/>";
     const std::vector<std::string> signals = {"turn/position"};
-    return std::abs(
-        at(playing_problem(playing_slider_crank("", play), playing_study("")), 0.03, signals)[0] -
-        at(playing_problem(playing_slider_crank("", ""), playing_study("")), 0.03, signals)[0]);
+    return std::abs(signals_at(playing_problem(playing_slider_crank("", play), playing_study("")),
+                               0.03, signals)[0] -
+                    signals_at(playing_problem(playing_slider_crank("", ""), playing_study("")),
+                               0.03, signals)[0]);
   };
   const double wide = miss("1e-4", "1e9"), narrow = miss("1e-6", "1e11");
   EXPECT_LT(wide, 0.02);
@@ -100,11 +90,11 @@ TEST(Clearance, APendulumFallsAndRestsOnItsBearing) {
                          play + "</joint>",
                      ""),
         "duration: 0.5\nsolver: {relative_tolerance: 1.0e-9, absolute_tolerance: 1.0e-12}\n");
-    EXPECT_NEAR(at(problem, 0.9 * flight, {"arm/position/z"})[0],
+    EXPECT_NEAR(signals_at(problem, 0.9 * flight, {"arm/position/z"})[0],
                 -0.5 * kEarthGravity * 0.81 * flight * flight, 1e-10)
         << is_ball;
-    const std::vector<double> rest =
-        at(problem, 0.5, {"arm/position/z", "pin_clearance/gap", "pin_clearance/normal_force"});
+    const std::vector<double> rest = signals_at(
+        problem, 0.5, {"arm/position/z", "pin_clearance/gap", "pin_clearance/normal_force"});
     EXPECT_NEAR(rest[0], -c - depth, 1e-7) << is_ball;
     EXPECT_NEAR(rest[1], -depth, 1e-7) << is_ball;
     EXPECT_NEAR(rest[2], kEarthGravity, 1e-3) << is_ball;
@@ -119,8 +109,8 @@ TEST(Clearance, AJournalSinksByItsAxialClearance) {
              "radius='0.02' stiffness='1e7' dissipation='30'/></joint>",
              ""),
       "duration: 0.3\n");
-  const std::vector<double> rest =
-      at(problem, 0.3, {"pin_z/position", "pin_axial_clearance/normal_force", "pin_x/position"});
+  const std::vector<double> rest = signals_at(
+      problem, 0.3, {"pin_z/position", "pin_axial_clearance/normal_force", "pin_x/position"});
   EXPECT_NEAR(rest[0], -2e-4 - std::pow(kEarthGravity / 1e7, 2.0 / 3.0), 1e-6);
   EXPECT_NEAR(rest[1], kEarthGravity, 1e-2);
   EXPECT_NEAR(rest[2], 0.0, 1e-9);
@@ -140,14 +130,15 @@ TEST(Clearance, ABlockRestsInItsGuide) {
   };
   const std::vector<std::string> signals = {"slide_x/position", "slide_turn/position",
                                             "slide_clearance/normal_force", "slide/position"};
-  const std::vector<double> flat = at(playing_problem(block("0"), "duration: 0.4\n"), 0.4, signals);
+  const std::vector<double> flat =
+      signals_at(playing_problem(block("0"), "duration: 0.4\n"), 0.4, signals);
   const double depth = std::pow(kEarthGravity / 4.0 / 1e7, 2.0 / 3.0);
   EXPECT_NEAR(flat[0], -5e-4 - depth, 1e-7);
   EXPECT_NEAR(flat[1], 0.0, 1e-9);
   EXPECT_NEAR(flat[2], kEarthGravity, 1e-2);
   // The upper corner behind and the lower one in front carry it: lever 0.08 m over their distance.
   const std::vector<double> tilted =
-      at(playing_problem(block("0.08"), "duration: 0.4\n"), 0.4, signals);
+      signals_at(playing_problem(block("0.08"), "duration: 0.4\n"), 0.4, signals);
   const double up = std::pow(0.3 * kEarthGravity / 2.0 / 1e7, 2.0 / 3.0),
                down = std::pow(1.3 * kEarthGravity / 2.0 / 1e7, 2.0 / 3.0),
                turn = std::abs(tilted[1]);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "integration/energy_balance.h"
+#include "integration/signals_at.h"
 #include "integration/touching.h"
-#include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
@@ -17,18 +17,6 @@ constexpr double kGravity = 9.81, kRadius = 0.05, kInertia = 0.001;
 Problem problem_of(const std::string& urdf, const std::string& study) {
   return load_problem({"ball.urdf", urdf}, {}, {"ball.yaml", study}, {}, TrajectoryLoader(),
                       FileLoader());
-}
-
-/// The signals at the end of a study.
-std::vector<double> at_end(const Problem& problem, double duration,
-                           const std::vector<std::string>& signals) {
-  Simulation simulation(problem, problem.parameters(), signals);
-  EXPECT_TRUE(simulation.start().ok());
-  const Status status = simulation.advance_to(duration);
-  EXPECT_TRUE(status.ok()) << status.cause;
-  Frame frame;
-  simulation.sample(duration, &frame);
-  return frame.signals;
 }
 
 std::string study(double duration, const std::string& start) {
@@ -47,7 +35,7 @@ TEST(Contact, LeavesWithTheSpeedOfItsRestitution) {
                    "gravity: [0, 0, 0]\n" +
                        study(0.1, "translation: [0, 0, 0.06], linear_velocity: [0, 0, -1.3]"));
     const std::vector<double> end =
-        at_end(problem, 0.1, {"ball/velocity/z", "touch/gap", "touch/gap_rate"});
+        signals_at(problem, 0.1, {"ball/velocity/z", "touch/gap", "touch/gap_rate"});
     EXPECT_NEAR(end[0], e * speed, 1e-8) << e;
     EXPECT_GT(end[1], 0.0);
     EXPECT_NEAR(end[2], end[0], 1e-14);
@@ -70,13 +58,13 @@ TEST(Contact, AThrownBallComesToRoll) {
                        "absolute_tolerance: 1.0e-11, coordinates: " +
                        coordinates + "}\n");
     const std::vector<double> sliding =
-        at_end(problem, 0.05, {"ball/velocity/x", "touch/sliding_speed", "touch/friction"});
+        signals_at(problem, 0.05, {"ball/velocity/x", "touch/sliding_speed", "touch/friction"});
     EXPECT_NEAR(sliding[0], speed - 0.3 * kGravity * 0.05, 1e-3);
     EXPECT_NEAR(sliding[2], 0.3 * kGravity, 0.02);
     EXPECT_GT(sliding[1], 0.2);
-    const std::vector<double> rolling = at_end(problem, 0.3,
-                                               {"ball/velocity/x", "ball/angular_velocity/y",
-                                                "touch/sliding_speed", "touch/normal_force"});
+    const std::vector<double> rolling = signals_at(problem, 0.3,
+                                                   {"ball/velocity/x", "ball/angular_velocity/y",
+                                                    "touch/sliding_speed", "touch/normal_force"});
     const double kept = speed / (1.0 + kInertia / (arm * arm));
     EXPECT_NEAR(rolling[0], kept, 2e-5) << coordinates;
     EXPECT_NEAR(rolling[1], kept / arm, 2e-3) << coordinates;
@@ -172,9 +160,9 @@ TEST(Contact, AHingeWithClearanceIsNearlyAHinge) {
   const double duration = 0.7;
   const std::string link = bar("arm"), start = "duration: 0.7\ninitial_state: {j: {";
   const std::vector<double> ideal =
-      at_end(problem_of(robot(link + hinge("j", "ground", "arm", "0 0 0")),
-                        start + "position: 0.5}}\nsolver: {relative_tolerance: 1.0e-9}\n"),
-             duration, {"arm/velocity/x", "arm/angular_velocity/y"});
+      signals_at(problem_of(robot(link + hinge("j", "ground", "arm", "0 0 0")),
+                            start + "position: 0.5}}\nsolver: {relative_tolerance: 1.0e-9}\n"),
+                 duration, {"arm/velocity/x", "arm/angular_velocity/y"});
   double last = 0.0;
   for (const double clearance : {1e-3, 1e-5}) {
     const Problem problem = problem_of(
@@ -186,7 +174,7 @@ TEST(Contact, AHingeWithClearanceIsNearlyAHinge) {
               "'><origin rpy='1.5707963267948966 0 0'/></predecessor><successor link='arm' "
               "shape='sphere' radius='0.01'/></codesign:contact>"),
         start + "rotation: 0.5}}\nsolver: {relative_tolerance: 1.0e-8}\n");
-    const std::vector<double> end = at_end(
+    const std::vector<double> end = signals_at(
         problem, duration, {"arm/velocity/x", "arm/angular_velocity/y", "bearing/normal_force"});
     last = std::abs(end[1] - ideal[1]);
     EXPECT_LT(last, 60.0 * clearance + 1e-3) << clearance;
