@@ -88,12 +88,9 @@ void FlowingLoop::find_peaks(LoopMargins* margins) const {
   if (is_bounded) {
     margins->all.sensitivities = peaks_of(false, part);
     margins->all.complementaries = peaks_of(true, part);
-    margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
-    margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
+    take_largest_peaks(margins);
   }
-  const auto complementary = [&](double w) { return std::abs(part(w)); };
-  margins->rest = rest_of(complementary, grid_);
-  margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
+  set_bandwidth([&](double w) { return std::abs(part(w)); }, grid_, margins);
 }
 
 LoopMargins FlowingLoop::margins() const {

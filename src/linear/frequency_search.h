@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -96,6 +97,12 @@ std::optional<AtFrequency> sort_margins(std::vector<AtFrequency>* all, const Dec
   return all->empty() ? std::nullopt : std::optional<AtFrequency>(all->front());
 }
 
+/// Sets Ms and Mt, the largest of all peaks of each.
+inline void take_largest_peaks(LoopMargins* margins) {
+  margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
+  margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
+}
+
 /// The frequency that stands for rest [rad/s]: 0, or beside it where |T| has a pole there: a motion
 /// that the loop does not see, such as the position of a speed loop.
 /// @param complementary |T(w)|. @param grid frequencies in rising order
@@ -117,6 +124,14 @@ std::optional<AtFrequency> bandwidth_of(const Function& complementary,
     return AtFrequency{w, w};
   }
   return {};
+}
+
+/// Sets the bandwidth, and the frequency that stands for rest. @param complementary |T(w)|
+template <class Function>
+void set_bandwidth(const Function& complementary, const std::vector<double>& grid,
+                   LoopMargins* margins) {
+  margins->rest = rest_of(complementary, grid);
+  margins->bandwidth = bandwidth_of(complementary, grid, margins->rest);
 }
 
 }  // namespace codesign

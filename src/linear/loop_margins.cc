@@ -83,7 +83,8 @@ void OpenLoop::find_crossings(LoopMargins* margins) const {
   for (const double w : grid_) L.push_back(at(w));
   take_gain(at(0.0).real(), 0.0, &margins->all);
   if (period_ > 0.0) take_gain(L.back().real(), grid_.back(), &margins->all);
-  // A pole passes through infinity, and signals that are fast enough meet any delay.
+  // At infinite frequency L is its direct part: at -1 a pole passes through infinity, and beyond a
+  // magnitude of 1 any delay makes the loop unstable.
   const double far = period_ > 0.0 ? 0.0 : -open_.D(0, 0);
   take_gain(far, grid_.back(), &margins->all);
   if (std::abs(far) > 1.0) margins->all.delays.push_back({0.0, grid_.back()});
@@ -115,10 +116,8 @@ void OpenLoop::find_peaks(LoopMargins* margins) const {
   const double far = functions_->closed.at_infinity();
   if (period_ == 0.0) all.sensitivities.push_back({std::abs(1.0 + far), grid_.back()});
   if (period_ == 0.0 && far != 0.0) all.complementaries.push_back({std::abs(far), grid_.back()});
-  margins->sensitivity = sort_margins(&all.sensitivities, std::greater<>());
-  margins->complementary = sort_margins(&all.complementaries, std::greater<>());
-  margins->rest = rest_of(complementary, grid_);
-  margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
+  take_largest_peaks(margins);
+  set_bandwidth(complementary, grid_, margins);
 }
 
 LoopMargins OpenLoop::margins() const {

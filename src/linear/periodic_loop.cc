@@ -112,11 +112,8 @@ std::vector<AtFrequency> PeriodicLoop::peaks_of(bool complementary) const {
 void PeriodicLoop::find_peaks(LoopMargins* margins) const {
   margins->all.sensitivities = peaks_of(false);
   margins->all.complementaries = peaks_of(true);
-  margins->sensitivity = sort_margins(&margins->all.sensitivities, std::greater<>());
-  margins->complementary = sort_margins(&margins->all.complementaries, std::greater<>());
-  const auto complementary = [&](double w) { return std::abs(closed_at(w)); };
-  margins->rest = rest_of(complementary, grid_);
-  margins->bandwidth = bandwidth_of(complementary, grid_, margins->rest);
+  take_largest_peaks(margins);
+  set_bandwidth([&](double w) { return std::abs(closed_at(w)); }, grid_, margins);
 }
 
 LoopMargins PeriodicLoop::margins() const {
