@@ -67,6 +67,9 @@ void System::add_elastic_gear(JointLoad* load) const {
 /// what is known of its gear's torque.
 void System::add_loads_of(const JointDescription& joint, bool slips_in_contact, int* unknowns,
                           JointLoad* load) const {
+  // The load of one coordinate would be that of a cylindrical joint's turn alone.
+  if (joint.has_pose() && !(joint.damping.is_zero() && joint.dry_friction.is_zero()))
+    refuse_load(load->pair, load->element);
   if (!joint.damping.is_zero() || joint.spring)
     load->parts.emplace_back(PassiveLoad{joint.spring.has_value()});
   if (!joint.dry_friction.is_zero()) load->parts.emplace_back(DryFriction{});

@@ -3,16 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "integration/mechanisms.h"
+#include "integration/signals_at.h"
 #include "mechanism_codesign/error.h"
-#include "mechanism_codesign/simulation.h"
 #include "problem/load_problem.h"
 
 namespace codesign {
 namespace {
 
-Problem loaded_joints(const std::string& joints, const std::string& start) {
+/// @param overlays further annotations
+Problem loaded_joints(const std::string& joints, const std::string& start,
+                      const std::vector<SourceText>& overlays = {}) {
   return load_problem(
       {"joints.urdf",
        robot("<link name='bob'><inertial><origin xyz='0 0 -0.5'/><mass value='1'/><inertia "
@@ -20,7 +23,7 @@ Problem loaded_joints(const std::string& joints, const std::string& start) {
              "name='tip'/><joint name='end' type='fixed'><parent link='bob'/><child link='tip'/>"
              "<origin xyz='0.1 0 -1'/></joint>" +
              joints)},
-      {},
+      overlays,
       {"joints.yaml", "duration: 1.0\ninitial_state: {" + start +
                           "}\nsolver: {relative_tolerance: 1.0e-10, absolute_tolerance: "
                           "1.0e-12}\n"},
@@ -28,14 +31,7 @@ Problem loaded_joints(const std::string& joints, const std::string& start) {
 }
 
 std::vector<double> tip_at(const Problem& problem, double time) {
-  Simulation simulation(problem, problem.parameters(),
-                        {"tip/position/x", "tip/position/y", "tip/position/z"});
-  EXPECT_TRUE(simulation.start().ok());
-  const Status status = simulation.advance_to(time);
-  EXPECT_TRUE(status.ok()) << status.cause;
-  Frame frame;
-  simulation.sample(time, &frame);
-  return frame.signals;
+  return signals_at(problem, time, {"tip/position/x", "tip/position/y", "tip/position/z"});
 }
 
 std::string by_type(const std::string& type, const std::string& more = "") {
@@ -79,9 +75,10 @@ TEST(FurtherJoints, ACylindricalJointSlidesAndTurns) {
 }
 
 TEST(FurtherJoints, ComplaintsOfWhatTheyHaveNot) {
-  const auto complaint = [](const std::string& joints, const std::string& start) {
+  const auto complaint = [](const std::string& joints, const std::string& start,
+                            const std::vector<SourceText>& overlays = {}) {
     try {
-      loaded_joints(joints, start);
+      loaded_joints(joints, start, overlays);
     } catch (const InputError& error) {
       return std::string(error.what());
     }
@@ -98,6 +95,17 @@ TEST(FurtherJoints, ComplaintsOfWhatTheyHaveNot) {
                       "j: {rotation: 0}")
                 .find("no single coordinate for a limit"),
             std::string::npos);
+  const SourceText damped{"damped.urdf",
+                          "<robot><joint name='j'><dynamics damping='5'/></joint></robot>"};
+  const std::pair<const char*, const char*> starts[] = {{"cylindrical", "j: {rotation: 0}"},
+                                                        {"spherical", "j: {rotation: [0, 0, 0]}"}};
+  for (const auto& [type, start] : starts) {
+    const std::string joint = by_type(type, "<axis xyz='0 0 1'/>");
+    EXPECT_EQ(complaint(joint, start), "") << type;
+    EXPECT_NE(complaint(joint, start, {damped}).find("without a scalar coordinate"),
+              std::string::npos)
+        << type;
+  }
 }
 
 }  // namespace

@@ -61,6 +61,23 @@ TEST(ShownSignals, UnitsOfLinksAndDifferences) {
   EXPECT_EQ(unit("hold/integral"), "rad s");
 }
 
+TEST(ShownSignals, FrictionOfACylindricalJointIsThatOfItsTurn) {
+  const Problem problem = load_problem(
+      {"sleeve.urdf",
+       "<robot name='sleeve' xmlns:codesign='urn:mechanism_codesign'><link name='ground'/><link "
+       "name='sleeve'><inertial><mass value='1'/><inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' "
+       "iyz='0' izz='0.1'/></inertial></link><joint name='shaft' type='floating' "
+       "codesign:type='cylindrical'><parent link='ground'/><child link='sleeve'/><axis xyz='0 0 "
+       "1'/><codesign:friction mu_static='0.2' mu_dynamic='0.1' transition_velocity='0.01' "
+       "pin_radius='0.01' joint_length='0.05'/></joint></robot>"},
+      {}, {"sleeve.yaml", "duration: 1.0\n"}, {}, TrajectoryLoader(), FileLoader());
+  const auto unit = [&problem](const char* text) {
+    return unit_of(parse_signal(text, {}, ""), robot_of(problem), study_of(problem).controllers);
+  };
+  EXPECT_EQ(unit("shaft/friction"), "N m");
+  EXPECT_EQ(unit("shaft/sliding_velocity"), "rad/s");
+}
+
 TEST(WatchedRecords, NameSignalsWithTheirRanges) {
   OptimizationResult result;
   Json object;

@@ -138,9 +138,10 @@ void EffortResiduals::refuse_bounds_of_projected() const {
   for (const MeasuredMotion& recording : recordings_)
     for (const JointMotion& motion : recording.joints)
       if (motion.has_bounds && motion.least_speed > 0.0)
-        throw InputError({recording.where, recording.element + ".mask.rest",
-                          "with more joints than degrees of freedom none just moves alone",
-                          "bounds", "rest: leave_out, or recordings of independent joints"});
+        throw InputError(
+            {recording.where, recording.element + ".mask.rest",
+             "the recording has more joints than degrees of freedom: no joint moves alone",
+             "bounds", "rest: leave_out, or recordings of independent joints"});
 }
 
 std::vector<double> EffortResiduals::times() const {
@@ -203,8 +204,7 @@ bool EffortResiduals::is_bounded(std::size_t recording, std::size_t output) cons
   return joint.has_bounds && joint.least_speed > 0.0;
 }
 
-// Both bounds pass the filter before the nearer one is taken: the noise of the recorded effort at
-// rest, less what the filter removes of it, does not widen the bounds.
+// Both bounds pass the filter before the nearer one is taken, as the recorded effort does.
 Eigen::MatrixXd EffortResiduals::rows_of(std::size_t recording, std::size_t output,
                                          const Eigen::VectorXd& x, bool with_slopes) const {
   Eigen::MatrixXd columns;

@@ -19,7 +19,7 @@ class RestBounds {
 
   /// The motion with the samples that were added, which have the numbers of the measured ones.
   const MotionSamples& samples() const { return samples_; }
-  /// The added samples' places do not matter for these: the place of a measured sample.
+  /// The place of a measured sample in samples().
   Eigen::Index place(Eigen::Index sample) const {
     return places_[static_cast<std::size_t>(sample)];
   }

@@ -155,15 +155,7 @@ void read_dynamics(const XmlElement& dynamics, const ReadContext& context,
   joint->damping = read_magnitude_or_zero(dynamics, "damping", context);
   joint->dry_friction = read_magnitude_or_zero(dynamics, "friction", context);
   joint->armature = read_magnitude_or_zero(dynamics, "armature", context);
-  if (!joint->has_pose()) return;
-  if (dynamics.in_overlay()) {
-    // A row of friction or damping would act on the turn alone.
-    if (joint->freedoms().turns == 1 && joint->freedoms().slides == 1 &&
-        !(joint->damping.is_zero() && joint->dry_friction.is_zero()))
-      dynamics.fail("a joint of this type has no single coordinate for damping and friction", "",
-                    "<codesign:friction>");
-    return;
-  }
+  if (!joint->has_pose() || dynamics.in_overlay()) return;
   if (!joint->damping.is_zero() || !joint->dry_friction.is_zero())
     context.warnings->push_back(dynamics.warning(
         "dynamics_ignored",
@@ -187,6 +179,7 @@ void read_armature(const XmlElement& element, const ReadContext& context, JointD
         "there"));
 }
 
+// JointType begins with those.
 bool is_type_of_urdf(JointType type) { return type <= JointType::kFloating; }
 
 /// Says how a joint of other formats is written. @throws InputError
