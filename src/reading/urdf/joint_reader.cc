@@ -35,9 +35,9 @@ namespace {
 /// what zero means there.
 Quantity read_magnitude(const XmlElement& element, const std::string& attribute,
                         const ReadContext& context, const char* meaning = "is taken as zero") {
-  const Quantity value = read_quantity(
-      element, attribute, element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny,
-      context.table);
+  Quantity value = read_quantity(element, attribute,
+                                 element.in_overlay(attribute) ? Range::kNonNegative : Range::kAny,
+                                 context.table);
   if (value.nominal() >= 0.0) return value;
   context.warnings->push_back(element.warning_at("negative_value", attribute,
                                                  attribute + " is negative and " + meaning,
